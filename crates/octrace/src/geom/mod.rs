@@ -1,0 +1,13 @@
+//! Points, maps, boxes and rays; spans of rays and their ends.
+
+mod bounds;
+mod ray;
+mod span;
+mod transform;
+mod vector;
+
+pub use bounds::Bounds;
+pub use ray::Ray;
+pub use span::{Hit, Span, Spans};
+pub use transform::{Affine, sin_cos_deg};
+pub use vector::Vec3;

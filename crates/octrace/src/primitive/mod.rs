@@ -1,0 +1,71 @@
+//! The leaves of the CSG tree, each in its own coordinate system [Comba-Persiano, §2.1].
+
+mod polyhedron;
+
+pub use polyhedron::{Polyhedron, PolyhedronError};
+
+use crate::geom::{Affine, Bounds, Vec3};
+use std::sync::Arc;
+
+/// A primitive solid in primitive space.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Primitive {
+    /// The unit cube in the first octant, a corner at the origin.
+    Block,
+    /// The unit ball about the origin.
+    Sphere,
+    /// Radius 1, height 1, base on z = 0, about the z axis.
+    Cylinder,
+    /// The unbounded half-space z >= 0.
+    HalfSpace,
+    /// A cone or frustum about the z axis: radius 1 at z = 0, radius `top` at z = 1, `0 <= top < 1`.
+    Cone {
+        /// Radius at z = 1.
+        top: f64,
+    },
+    /// A ring about the z axis in the plane z = 0: major radius 1, minor radius `minor`, `0 < minor`.
+    Torus {
+        /// Radius of the tube.
+        minor: f64,
+    },
+    /// A closed polyhedron, convex or not.
+    Polyhedron(Arc<Polyhedron>),
+}
+
+impl From<Polyhedron> for Primitive {
+    fn from(p: Polyhedron) -> Self {
+        Self::Polyhedron(Arc::new(p))
+    }
+}
+
+impl Primitive {
+    /// The smallest axis-aligned box around the primitive after it was moved by `map`.
+    pub fn bounds(&self, map: &Affine) -> Bounds {
+        // Half-extent of the image of a disc of radius r in the xy plane, by axis.
+        let disc = |r: f64| {
+            let extent = |row: Vec3| (row.x * row.x + row.y * row.y).sqrt() * r;
+            Vec3::new(extent(map.rows[0]), extent(map.rows[1]), extent(map.rows[2]))
+        };
+        let frustum = |top: f64| {
+            let low = map.translation;
+            let high = low + map.column(2);
+            Bounds::new(low - disc(1.0), low + disc(1.0)).union(Bounds::new(high - disc(top), high + disc(top)))
+        };
+        match self {
+            Self::Block => Bounds::new(Vec3::ZERO, Vec3::splat(1.0)).transformed(map),
+            Self::Sphere => {
+                let extent = Vec3::new(map.rows[0].length(), map.rows[1].length(), map.rows[2].length());
+                Bounds::new(map.translation - extent, map.translation + extent)
+            }
+            Self::Cylinder => frustum(1.0),
+            Self::Cone { top } => frustum(*top),
+            Self::HalfSpace => Bounds::ALL,
+            Self::Torus { minor } => {
+                let tube = Vec3::new(map.rows[0].length(), map.rows[1].length(), map.rows[2].length()) * *minor;
+                let extent = disc(1.0) + tube;
+                Bounds::new(map.translation - extent, map.translation + extent)
+            }
+            Self::Polyhedron(p) => Bounds::around(p.points().iter().map(|&q| map.point(q))),
+        }
+    }
+}
