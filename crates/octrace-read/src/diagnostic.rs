@@ -69,7 +69,7 @@ impl Diagnostic {
 /// What a reader returns: all that it understood, and all that it has to say.
 #[derive(Clone, Debug)]
 pub struct Checked<T> {
-    /// What was read; absent if and only if there is an error.
+    /// What was understood.
     pub value: Option<T>,
     /// In the order of the file.
     pub diagnostics: Vec<Diagnostic>,
@@ -123,6 +123,11 @@ impl Collector {
         } else if entry.count == Self::KEPT_PER_CODE + 1 {
             entry.first_left_out = at;
         }
+    }
+
+    /// Whether an error was among them.
+    pub fn has_errors(&self) -> bool {
+        has_errors(&self.kept)
     }
 
     /// Everything that was said, in the order of the file.

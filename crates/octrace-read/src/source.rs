@@ -98,7 +98,9 @@ impl Source {
     pub fn line_col(&self, offset: u32) -> (usize, usize) {
         let starts = self.line_starts.get_or_init(|| {
             let after_newline = |(at, &byte): (usize, &u8)| (byte == b'\n').then_some(at as u32 + 1);
-            std::iter::once(0).chain(self.text.bytes().enumerate().filter_map(|(i, b)| after_newline((i, &b)))).collect()
+            std::iter::once(0)
+                .chain(self.text.bytes().enumerate().filter_map(|(i, b)| after_newline((i, &b))))
+                .collect()
         });
         let offset = (offset as usize).min(self.text.len());
         let line = starts.partition_point(|&start| start as usize <= offset);

@@ -178,7 +178,9 @@ fn any_depth_is_only_a_longer_array() {
     let vectors = format!("a({}{});", "[".repeat(DEPTH), "]".repeat(DEPTH));
     let ast = sound(&vectors);
     assert!(ast.same_tree(&sound(&print(&ast))));
-    for open in ["union() {", "union() ", "union(", "a([", "a([1, [", "{", "(", "/*", "\"", "!", "a(\"", "if (", "module {"] {
+    for open in
+        ["union() {", "union() ", "union(", "a([", "a([1, [", "{", "(", "/*", "\"", "!", "a(\"", "if (", "module {"]
+    {
         let _ = read(&open.repeat(DEPTH));
     }
 }

@@ -94,7 +94,7 @@ pub enum View<'a> {
 }
 
 /// A vector of vectors of numbers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Rows<'a> {
     rows: &'a [Slice],
     numbers: &'a [f64],
@@ -102,9 +102,13 @@ pub struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// How many there are.
-    #[allow(clippy::len_without_is_empty, reason = "there is always a row")]
     pub fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
     }
 
     /// Row `i`.
@@ -251,9 +255,11 @@ impl Ast {
                 && x.modifiers == y.modifiers
                 && x.end == y.end
                 && x.args.len == y.args.len
-                && self.args(a).iter().zip(o.args(b)).all(|(p, q)| {
-                    self.arg_name(p) == o.arg_name(q) && self.same_value(p.value, o, q.value)
-                })
+                && self
+                    .args(a)
+                    .iter()
+                    .zip(o.args(b))
+                    .all(|(p, q)| self.arg_name(p) == o.arg_name(q) && self.same_value(p.value, o, q.value))
         };
         self.len() == o.len() && self.nodes().zip(o.nodes()).all(same_node)
     }

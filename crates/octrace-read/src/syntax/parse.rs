@@ -50,7 +50,18 @@ fn unreadable(source: &Source) -> Option<Diagnostic> {
 
 /// Words of OpenSCAD's language that only its evaluator understands.
 const EVALUATED_WORDS: [&str; 13] = [
-    "module", "function", "for", "intersection_for", "if", "else", "let", "assign", "each", "echo", "assert", "include",
+    "module",
+    "function",
+    "for",
+    "intersection_for",
+    "if",
+    "else",
+    "let",
+    "assign",
+    "each",
+    "echo",
+    "assert",
+    "include",
     "use",
 ];
 
@@ -158,7 +169,9 @@ impl Parser<'_, '_> {
                 self.builder.close_node();
                 self.close_chains();
             }
-            Some(Open::Chain { .. }) | None => self.report(Diagnostic::error("unmatched-brace", at, "this `}` closes nothing")),
+            Some(Open::Chain { .. }) | None => {
+                self.report(Diagnostic::error("unmatched-brace", at, "this `}` closes nothing"))
+            }
         }
     }
 

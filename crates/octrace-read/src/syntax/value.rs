@@ -134,7 +134,11 @@ impl Parser<'_, '_> {
             let line = text[quote..].lines().next().unwrap_or_default();
             let resume = quote + line.rfind(')').unwrap_or(line.len());
             let message = "this string has no closing quote";
-            self.report(Diagnostic::error("unclosed-string", SourceRange::new(quote as u32, quote as u32 + 1), message));
+            self.report(Diagnostic::error(
+                "unclosed-string",
+                SourceRange::new(quote as u32, quote as u32 + 1),
+                message,
+            ));
             self.cursor.set_pos(resume as u32);
             return Err(Reported);
         };
