@@ -6,6 +6,7 @@ pub mod geom;
 pub mod model;
 pub mod octree;
 pub mod primitive;
+pub mod query;
 pub mod surface;
 pub mod trace;
 pub mod traverse;
