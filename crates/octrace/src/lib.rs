@@ -2,11 +2,13 @@
 
 pub mod compile;
 pub mod exec;
+pub mod film;
 pub mod geom;
 pub mod model;
 pub mod octree;
 pub mod primitive;
 pub mod query;
+pub mod shade;
 pub mod surface;
 pub mod trace;
 pub mod traverse;

@@ -7,6 +7,7 @@
 //! plane is known best; planes within tolerance of an axis are put exactly on it.
 
 use crate::geom::{Affine, Bounds, Vec3};
+use crate::primitive::SurfaceRef;
 use crate::surface::{Plane, Quadric, QuadricKind, Surface};
 use std::collections::HashMap;
 
@@ -30,13 +31,6 @@ pub(super) enum Face {
     Unbounded { plane: Plane },
     /// A quadric patch; `map` takes the unit quadric to the scene, the patch lies between the two local heights.
     Quadric { kind: QuadricKind, map: Affine, to_local: Affine, heights: (f64, f64) },
-}
-
-/// A surface of the catalogue, or its complement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct SurfaceRef {
-    pub surface: u32,
-    pub flipped: bool,
 }
 
 impl Face {

@@ -5,8 +5,9 @@ use super::intern::{Face, intern};
 use super::{Catalog, CompileReport, Constant, Leaf, Literal, Program, Word};
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, PartId, Solid};
-use crate::primitive::Primitive;
-use crate::surface::{Plane, QuadricKind};
+use crate::primitive::{FacePlane, Mesh, MovedFace, Polyhedron, Primitive, SurfaceRef};
+use crate::surface::{Plane, QuadricKind, Surface};
+use std::sync::Arc;
 
 /// Everything about some bodies that does not depend on where one looks.
 #[derive(Clone, Debug)]
@@ -24,17 +25,22 @@ pub struct Compiled {
 /// # Panics
 /// If there are more than 2³⁰ uses of surfaces.
 pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
-    let mut lowering = Lowering::default();
+    let mut lowering = Lowering { snap, ..Lowering::default() };
     let lowered: Vec<Lowered> =
         bodies.iter().map(|body| lowering.solid(body, &Affine::IDENTITY, None, false)).collect();
     let extent = lowered.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounded));
 
     let mut catalog = Catalog { leaves: lowering.leaves, ..Catalog::default() };
     let (refs, report) = intern(&lowering.faces, &extent, snap, &mut catalog.surfaces);
-    catalog.literals = std::iter::zip(&lowering.literal_leaves, &refs)
-        .map(|(&leaf, face)| Literal { surface: face.surface, leaf })
-        .collect();
-    assert!(catalog.literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
+    let meshes: Vec<SurfaceRef> =
+        lowering.meshes.iter().map(|pending| pending.build(&refs, report.tolerance, &mut catalog.surfaces)).collect();
+    let surface_of = |literal: &PendingLiteral| match literal.shape {
+        Shape::Face(face) => refs[face as usize],
+        Shape::Mesh(mesh) => meshes[mesh as usize],
+    };
+    let literals = &lowering.literals;
+    catalog.literals = literals.iter().map(|l| Literal { surface: surface_of(l).surface, leaf: l.leaf }).collect();
+    assert!(literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
 
     // Faces stored the other way round turn their literals' signs.
     let orient = |program: Expr| -> Constant {
@@ -42,7 +48,8 @@ pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
             Constant::Words(mut words) => {
                 for word in &mut words {
                     if let Word::Literal { index, negated } = Word::decode(*word) {
-                        *word = Word::Literal { index, negated: negated ^ refs[index as usize].flipped }.encode();
+                        let flipped = surface_of(&literals[index as usize]).flipped;
+                        *word = Word::Literal { index, negated: negated ^ flipped }.encode();
                     }
                 }
                 Constant::Words(words)
@@ -71,10 +78,44 @@ struct Lowered {
 
 #[derive(Default)]
 struct Lowering {
+    snap: f64,
     faces: Vec<Face>,
-    /// The leaf of each face's literal; literals and faces are the same before interning.
-    literal_leaves: Vec<u32>,
+    meshes: Vec<PendingMesh>,
+    literals: Vec<PendingLiteral>,
     leaves: Vec<Leaf>,
+}
+
+/// A literal whose surface is not known yet.
+struct PendingLiteral {
+    shape: Shape,
+    leaf: u32,
+}
+
+#[derive(Clone, Copy)]
+enum Shape {
+    /// Index into [`Lowering::faces`].
+    Face(u32),
+    /// Index into [`Lowering::meshes`].
+    Mesh(u32),
+}
+
+/// A polyhedron to be made a mesh when its faces have surfaces.
+struct PendingMesh {
+    polyhedron: Arc<Polyhedron>,
+    map: Affine,
+    /// Its faces with an area are those of [`Lowering::faces`] from here on.
+    first_face: usize,
+}
+
+impl PendingMesh {
+    fn build(&self, refs: &[SurfaceRef], tolerance: f64, surfaces: &mut Vec<Surface>) -> SurfaceRef {
+        let mut faces = refs[self.first_face..].iter().copied();
+        let mut next = |_: &MovedFace| faces.next().expect("the same faces have an area as before");
+        let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
+        let surface = surfaces.len() as u32;
+        surfaces.push(Surface::Mesh(Arc::new(mesh.expect("lowered only where a face has an area"))));
+        SurfaceRef { surface, flipped: false }
+    }
 }
 
 impl Lowering {
@@ -143,39 +184,41 @@ impl Lowering {
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
         let mut faces = FaceList { map, inverse, faces: Vec::new() };
+        let mut concave = None;
         match primitive {
             Primitive::Block => faces.block(),
             Primitive::Sphere => faces.quadric(QuadricKind::Sphere, &Affine::IDENTITY, (-1.0, 1.0)),
             Primitive::Cylinder => {
                 faces.quadric(QuadricKind::Cylinder, &Affine::IDENTITY, (0.0, 1.0));
-                faces.cap(Vec3::Z, -1.0, 1.0, 0.0);
-                faces.cap(Vec3::Z, 1.0, 1.0, 1.0);
+                faces.cap(-Vec3::Z, 1.0, 0.0);
+                faces.cap(Vec3::Z, 1.0, 1.0);
             }
-            Primitive::Cone { top } => {
-                // The double cone X² + Y² < Z² with Z = 1 - (1 - top) z.
-                let slope = 1.0 - top;
-                let from_cone = Affine {
-                    translation: Vec3::new(0.0, 0.0, 1.0 / slope),
-                    ..Affine::scale(Vec3::new(1.0, 1.0, -1.0 / slope))
-                };
-                faces.quadric(QuadricKind::Cone, &from_cone, (1.0, (1.0 + top) / 2.0));
-                faces.cap(Vec3::Z, -1.0, 1.0, 0.0);
-                faces.cap(Vec3::Z, 1.0, top.max(0.5), 1.0);
-            }
+            Primitive::Cone { top } => faces.cone(*top),
             Primitive::HalfSpace => faces.half_space(),
             Primitive::Torus { .. } => return nothing(negated),
-            Primitive::Polyhedron(_) => return nothing(negated),
+            Primitive::Polyhedron(polyhedron) => {
+                faces.polyhedron(polyhedron);
+                if faces.faces.is_empty() {
+                    return nothing(negated);
+                }
+                let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
+                if !polyhedron.is_convex(self.snap.max(1e-12) * size) {
+                    concave = Some(polyhedron);
+                }
+            }
         }
-        let literals: Vec<Expr> = faces
-            .faces
-            .into_iter()
-            .map(|face| {
-                let index = self.faces.len() as u32;
-                self.faces.push(face);
-                self.literal_leaves.push(leaf);
-                Expr::Literal { index, negated }
-            })
-            .collect();
+        let first_face = self.faces.len();
+        let literals: Vec<Expr> = match concave {
+            Some(polyhedron) => {
+                let mesh = PendingMesh { polyhedron: Arc::clone(polyhedron), map: *map, first_face };
+                self.meshes.push(mesh);
+                vec![self.literal(Shape::Mesh(self.meshes.len() as u32 - 1), leaf, negated)]
+            }
+            None => (0..faces.faces.len())
+                .map(|i| self.literal(Shape::Face((first_face + i) as u32), leaf, negated))
+                .collect(),
+        };
+        self.faces.append(&mut faces.faces);
         let bounds = primitive.bounds(map);
         let outer = match (bounds.is_bounded(), &literals[..]) {
             (false, &[Expr::Literal { index, negated }]) => Expr::Literal { index, negated },
@@ -183,6 +226,14 @@ impl Lowering {
         };
         let bounded = if bounds.is_bounded() { bounds } else { Bounds::EMPTY };
         Lowered { whole: Expr::combine(Op::And.under(negated), literals), outer, bounds, bounded }
+    }
+}
+
+impl Lowering {
+    fn literal(&mut self, shape: Shape, leaf: u32, negated: bool) -> Expr {
+        let index = self.literals.len() as u32;
+        self.literals.push(PendingLiteral { shape, leaf });
+        Expr::Literal { index, negated }
     }
 }
 
@@ -226,10 +277,40 @@ impl FaceList<'_> {
         }
     }
 
-    /// A disc perpendicular to z, its normal `axis * sign`.
-    fn cap(&mut self, axis: Vec3, sign: f64, radius: f64, z: f64) {
+    /// A disc about the z axis.
+    fn cap(&mut self, normal: Vec3, radius: f64, z: f64) {
         let corners = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        self.plane(axis * sign, corners.map(|(x, y)| Vec3::new(x * radius, y * radius, z)));
+        self.plane(normal, corners.map(|(x, y)| Vec3::new(x * radius, y * radius, z)));
+    }
+
+    /// The side is a part of the double cone X² + Y² < Z² with Z = 1 - (1 - top) z.
+    fn cone(&mut self, top: f64) {
+        let slope = 1.0 - top;
+        let from_cone = Affine {
+            translation: Vec3::new(0.0, 0.0, 1.0 / slope),
+            ..Affine::scale(Vec3::new(1.0, 1.0, -1.0 / slope))
+        };
+        self.quadric(QuadricKind::Cone, &from_cone, (1.0, (1.0 + top) / 2.0));
+        self.cap(-Vec3::Z, 1.0, 0.0);
+        // At a pointed end the plane only parts the nappes; it is known as well as the cone.
+        self.cap(Vec3::Z, if top > 0.0 { top } else { 1.0 }, 1.0);
+    }
+
+    /// The faces that have an area, turned outwards also where the map mirrors.
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) {
+        let mirrored = self.map.determinant() < 0.0;
+        for face in polyhedron.faces() {
+            let mut corners: Vec<Vec3> =
+                face.iter().map(|&i| self.map.point(polyhedron.points()[i as usize])).collect();
+            if mirrored {
+                corners.reverse();
+            }
+            if let Some(fit) = FacePlane::fit(&corners) {
+                let plane = Plane { normal: fit.normal, offset: fit.normal.dot(fit.point) };
+                let some = [0, 1, 2, 3].map(|i| corners[i * corners.len() / 4]);
+                self.faces.push(Face::Plane { plane, corners: some });
+            }
+        }
     }
 
     /// The half-space z >= 0.

@@ -44,6 +44,7 @@ fn surface_text(surface: &Surface) -> String {
         Surface::Plane(p) => {
             format!("plane {:.6} {:.6} {:.6} < {:.6}", p.normal.x, p.normal.y, p.normal.z, p.offset)
         }
+        Surface::Mesh(m) => format!("mesh of {} triangles", m.triangle_count()),
         Surface::Quadric(q) => format!("{:?}", q.kind).to_lowercase(),
     }
 }

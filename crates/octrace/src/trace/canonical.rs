@@ -37,7 +37,7 @@ fn literal_spans(catalog: &Catalog, word: u32, ray: &Ray) -> Spans {
     };
     let surface = catalog.literals[index as usize].surface;
     let mut params = Vec::new();
-    let starts_inside = negated ^ catalog.surfaces[surface as usize].crossings(ray, &mut params);
+    let starts_inside = negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut params);
     let mut spans = Spans::new();
     let mut enter = None;
     let mut inside = starts_inside;

@@ -42,7 +42,8 @@ impl Roots {
             let mut starts_inside = false;
             if let Word::Literal { index, negated } = Word::decode(word) {
                 let surface = catalog.literals[index as usize].surface;
-                starts_inside = negated ^ catalog.surfaces[surface as usize].crossings(ray, &mut self.params);
+                starts_inside =
+                    negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut self.params);
             }
             self.rows.push(Row { start, len: self.params.len() as u32 - start, starts_inside });
         }
@@ -150,7 +151,12 @@ pub(crate) fn hit_of(catalog: &Catalog, word: u32, ray: &Ray, t: f64, entering: 
         unreachable!("only literals are seen to change a program");
     };
     let literal = catalog.literals[index as usize];
-    let (surface, turned) =
-        catalog.surfaces[literal.surface as usize].facet_at(literal.surface, ray, t, entering != negated);
+    let (surface, turned) = catalog.surfaces[literal.surface as usize].facet_at(
+        literal.surface,
+        &catalog.surfaces,
+        ray,
+        t,
+        entering != negated,
+    );
     Hit { t, leaf: literal.leaf, surface, entering, flipped: negated != turned }
 }

@@ -7,7 +7,7 @@ use super::report::{RayReport, VisitedCell};
 use super::roots::Roots;
 use crate::compile::{Catalog, CompileReport, Program, compile, program_text};
 use crate::exec::{Cancelled, Exec};
-use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
+use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
 use crate::model::{PartId, Solid};
 use crate::octree::{BuildOptions, Octree, OctreeStats, build};
 use crate::surface::Side;
@@ -254,18 +254,14 @@ impl Tracer {
                 hits.push(hit);
                 ControlFlow::Continue(())
             });
-        let mut spans = if stop.is_break() {
+        let spans = if stop.is_break() {
             canonical::spans(&self.catalog, &self.bodies[body].program.whole, ray)
         } else if hits.is_empty() {
             canonical::spans(&self.catalog, &self.bodies[body].program.outer, ray)
         } else {
             spans_of(&hits)
         };
-        for span in &mut spans {
-            span.enter = span.enter.map(|hit| prepared.outer_hit(hit));
-            span.exit = span.exit.map(|hit| prepared.outer_hit(hit));
-        }
-        spans
+        prepared.outer_spans(spans)
     }
 
     /// Shows `on_hit` a body's crossings after `start` up to `end`, by the acceleration chosen.
@@ -426,7 +422,6 @@ impl Tracer {
 }
 
 fn spans_of(hits: &[Hit]) -> Spans {
-    use crate::geom::Span;
     let mut spans = Spans::new();
     let mut enter = None;
     let mut open = hits.first().is_some_and(|hit| !hit.entering);
@@ -491,6 +486,25 @@ impl Prepared {
     /// A parameter of the prepared ray as one of the caller's.
     fn outer(&self, t: f64) -> f64 {
         (t + self.shift) / self.scale
+    }
+
+    /// Parameters that rounding makes equal on the way leave no span, and no gap, between them.
+    fn outer_spans(&self, spans: Spans) -> Spans {
+        let mut outer: Spans = Spans::with_capacity(spans.len());
+        for span in spans {
+            let span = Span {
+                enter: span.enter.map(|hit| self.outer_hit(hit)),
+                exit: span.exit.map(|hit| self.outer_hit(hit)),
+            };
+            if span.enter_t() >= span.exit_t() {
+                continue;
+            }
+            match outer.last_mut() {
+                Some(last) if last.exit_t() == span.enter_t() => last.exit = span.exit,
+                _ => outer.push(span),
+            }
+        }
+        outer
     }
 
     fn outer_hit(&self, hit: Hit) -> Hit {

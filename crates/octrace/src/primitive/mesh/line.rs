@@ -15,8 +15,6 @@ pub(super) struct Line {
     axes: [usize; 3],
     /// Direction along the picture's axes where it is one along the third.
     shear: [f64; 2],
-    /// Direction along the third axis.
-    advance: f64,
 }
 
 impl Line {
@@ -30,12 +28,7 @@ impl Line {
             (u, v) = (v, u);
         }
         let shear = [ray.direction[u] / advance, ray.direction[v] / advance];
-        Self { origin: ray.origin, axes: [u, v, along], shear, advance }
-    }
-
-    /// The ray parameter at which a point is passed, looking across the line.
-    pub fn depth(&self, p: Vec3) -> f64 {
-        (p[self.axes[2]] - self.origin[self.axes[2]]) / self.advance
+        Self { origin: ray.origin, axes: [u, v, along], shear }
     }
 
     /// Where the point appears in the picture.

@@ -67,7 +67,7 @@ impl Mesh {
     /// in the order of the faces.
     ///
     /// `slack` (scene units) says how far a surface may lie off the face that it stands for: the parameter of a crossing
-    /// is taken from the surface, but not further than this from what the corners of the triangle allow.
+    /// is taken from the surface, but not further than this outside the triangle's bounding box.
     ///
     /// `None` where no face has an area after the move, so that nothing is left.
     pub fn new(
@@ -126,19 +126,15 @@ impl Mesh {
     pub fn crossings(&self, ray: &Ray, surface_t: impl Fn(u32) -> f64, out: &mut Vec<Crossing>) {
         out.clear();
         let line = Line::new(ray);
-        let slack = self.slack / ray.direction.length();
         let _ = self.tree.visit::<()>(
             |bounds| line.may_touch(bounds),
             |triangle| {
                 let MeshTriangle { corners, surface } = self.triangles[triangle as usize];
                 let corners = corners.map(|i| self.points[i as usize]);
                 if let Some(entering) = line.crosses(corners) {
-                    let depths = corners.map(|p| line.depth(p));
-                    let low = depths[0].min(depths[1]).min(depths[2]);
-                    let high = depths[0].max(depths[1]).max(depths[2]);
+                    let (low, high) = reach(ray, &Bounds::around(corners), self.slack);
                     let t = surface_t(surface.surface);
-                    let within = t.max(low - slack).min(high + slack);
-                    let t = if t.is_finite() { within } else { low + 0.5 * (high - low) };
+                    let t = if t.is_finite() { t.max(low).min(high) } else { low + 0.5 * (high - low) };
                     out.push(Crossing { t, entering, triangle });
                 }
                 ControlFlow::Continue(())
@@ -195,12 +191,14 @@ impl Mesh {
     /// Whether the surface may touch a box. False only where it does not: so a box that is not touched lies inside or
     /// outside as a whole. Rounding is the caller's: make the box larger by what matters.
     pub fn touches_box(&self, center: Vec3, half_extents: Vec3) -> bool {
+        // A crossing lies off its triangle by the slack at most, and its surface off the triangle's plane once more.
+        let half_extents = half_extents + Vec3::splat(2.0 * self.slack);
         let probe = Bounds::new(center - half_extents, center + half_extents);
         let outcome = self.tree.visit(
             |bounds| !bounds.intersection(probe).is_empty(),
             |triangle| {
                 let corners = self.triangles[triangle as usize].corners.map(|i| self.points[i as usize]);
-                match overlap::triangle_touches_box(corners, center, half_extents) {
+                match overlap::triangle_reaches_box(corners, center, half_extents) {
                     true => ControlFlow::Break(()),
                     false => ControlFlow::Continue(()),
                 }
@@ -208,6 +206,20 @@ impl Mesh {
         );
         outcome.is_break()
     }
+}
+
+/// The parameters for which the line is in the box grown by `slack`, which it is known to pass.
+fn reach(ray: &Ray, bounds: &Bounds, slack: f64) -> (f64, f64) {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let (o, d) = (ray.origin[axis], ray.direction[axis]);
+        let a = (bounds.min[axis] - slack - o) / d;
+        let b = (bounds.max[axis] + slack - o) / d;
+        // Along a line parallel to the axis' planes this is NaN or infinite, and min and max let it pass.
+        low = low.max(a.min(b));
+        high = high.min(a.max(b));
+    }
+    if low <= high { (low, high) } else { (high, low) }
 }
 
 /// Gives faces without a surface of their own the surface of a neighbour, or else of the first face that has one.

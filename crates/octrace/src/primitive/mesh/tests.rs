@@ -155,7 +155,8 @@ proptest! {
         let (center, half) = (Vec3::from(center), Vec3::from(half));
         let touched = mesh.touches_box(center, half);
         let by_scan = mesh.triangles.iter().any(|t| {
-            overlap::triangle_touches_box(t.corners.map(|i| mesh.points[i as usize]), center, half)
+            let reach = half + Vec3::splat(2.0 * mesh.slack);
+            overlap::triangle_reaches_box(t.corners.map(|i| mesh.points[i as usize]), center, reach)
         });
         prop_assert_eq!(touched, by_scan);
         if !touched {
@@ -198,11 +199,13 @@ proptest! {
         let mut out = Vec::new();
         mesh.crossings(&ray, |_| wild, &mut out);
         assert_closed(&out)?;
-        let slack = mesh.slack / ray.direction.length() + 1e-12;
+        let slack = mesh.slack + 1e-12 * (1.0 + ray.origin.max_abs());
         for crossing in out {
-            let depths = mesh.triangles[crossing.triangle as usize].corners.map(|i| Line::new(&ray).depth(mesh.points[i as usize]));
-            let (low, high) = (depths.iter().copied().fold(f64::MAX, f64::min), depths.iter().copied().fold(f64::MIN, f64::max));
-            prop_assert!(low - slack <= crossing.t && crossing.t <= high + slack);
+            let corners = mesh.triangles[crossing.triangle as usize].corners.map(|i| mesh.points[i as usize]);
+            let (bounds, p) = (Bounds::around(corners), ray.at(crossing.t));
+            for axis in 0..3 {
+                prop_assert!(bounds.min[axis] - slack <= p[axis] && p[axis] <= bounds.max[axis] + slack);
+            }
         }
     }
 }
