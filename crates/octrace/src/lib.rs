@@ -7,6 +7,7 @@ pub mod geom;
 pub mod model;
 pub mod octree;
 pub mod primitive;
+pub mod query;
 pub mod shade;
 pub mod surface;
 pub mod trace;
