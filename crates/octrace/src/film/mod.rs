@@ -1,1 +1,7 @@
-//! (to come)
+//! Where samples are collected, and the loop that collects them.
+
+mod buffer;
+mod render;
+
+pub use buffer::Film;
+pub use render::{Background, RenderStats, View, render};

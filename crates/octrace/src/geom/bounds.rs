@@ -32,6 +32,11 @@ impl Bounds {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z)
     }
 
+    /// Whether the point is in the box or on its surface.
+    pub fn contains(&self, p: Vec3) -> bool {
+        self.min.min(p) == self.min && self.max.max(p) == self.max
+    }
+
     /// Whether the box is empty or has finite corners.
     pub fn is_bounded(&self) -> bool {
         self.is_empty() || (self.min.is_finite() && self.max.is_finite())

@@ -24,6 +24,8 @@ pub struct Material {
     pub kt: f64,
     /// Index of refraction relative to the surroundings; 1 does not bend light.
     pub ior: f64,
+    /// How far the body colour filters transmitted light at each surface: 0 not at all, 1 fully.
+    pub tint: f64,
 }
 
 impl Material {
@@ -32,27 +34,40 @@ impl Material {
 
     /// Dull: no highlight.
     pub const fn matte(color: Rgb) -> Self {
-        Self { color, ka: 1.0, kd: 0.85, ks: 0.0, shininess: 1.0, kr: 0.0, kt: 0.0, ior: 1.0 }
+        Self { color, ka: 1.0, kd: 0.85, ks: 0.0, shininess: 1.0, kr: 0.0, kt: 0.0, ior: 1.0, tint: 1.0 }
     }
 
     /// A soft highlight: what parts without a material of their own are made of.
     pub const fn plastic(color: Rgb) -> Self {
-        Self { color, ka: 1.0, kd: 0.8, ks: 0.25, shininess: 40.0, kr: 0.0, kt: 0.0, ior: 1.0 }
+        Self { color, ka: 1.0, kd: 0.8, ks: 0.25, shininess: 40.0, kr: 0.0, kt: 0.0, ior: 1.0, tint: 1.0 }
     }
 
     /// Dark body, strong highlight, some reflection.
     pub const fn metal(color: Rgb) -> Self {
-        Self { color, ka: 0.6, kd: 0.45, ks: 0.7, shininess: 90.0, kr: 0.3, kt: 0.0, ior: 1.0 }
+        Self { color, ka: 0.6, kd: 0.45, ks: 0.7, shininess: 90.0, kr: 0.3, kt: 0.0, ior: 1.0, tint: 1.0 }
     }
 
     /// Clear, refracting, with a faint mirror image; the colour filters what passes.
     pub const fn glass(color: Rgb) -> Self {
-        Self { color, ka: 0.0, kd: 0.02, ks: 0.7, shininess: 200.0, kr: 0.1, kt: 0.88, ior: 1.5 }
+        Self { color, ka: 0.0, kd: 0.02, ks: 0.7, shininess: 200.0, kr: 0.1, kt: 0.88, ior: 1.5, tint: 1.0 }
     }
 
     /// Nearly everything is reflected.
     pub const fn mirror(color: Rgb) -> Self {
-        Self { color, ka: 0.05, kd: 0.08, ks: 0.6, shininess: 150.0, kr: 0.85, kt: 0.0, ior: 1.0 }
+        Self { color, ka: 0.05, kd: 0.08, ks: 0.6, shininess: 150.0, kr: 0.85, kt: 0.0, ior: 1.0, tint: 1.0 }
+    }
+}
+
+impl Material {
+    /// Whether light passes.
+    pub fn is_transparent(&self) -> bool {
+        self.kt > 0.0
+    }
+
+    /// The factor for light that passes the surface.
+    pub fn transmission(&self) -> Rgb {
+        let keep = 1.0 - self.tint;
+        (Rgb::gray(keep) + self.color * self.tint) * self.kt
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is asked for: the CSG tree and how it is lit and seen. Checked, then immutable.
 
+mod bodies;
 mod camera;
 mod color;
 mod light;
@@ -8,6 +9,7 @@ mod material;
 mod scene;
 mod solid;
 
+pub use bodies::Bodies;
 pub use camera::{Camera, CameraRays, Projection};
 pub use color::{Rgb, linear_to_srgb, srgb_to_linear};
 pub use light::Light;

@@ -1,6 +1,6 @@
 //! Everything a file asks for.
 
-use super::{Camera, Light, Part, Rgb, Solid};
+use super::{Camera, Light, Material, Part, PartId, Rgb, Solid};
 
 /// A scene: checked, finished, immutable.
 #[derive(Clone, Debug)]
@@ -30,5 +30,10 @@ impl Scene {
     /// A scene with nothing but the solid: default looks, no import tolerance.
     pub fn new(solid: Solid) -> Self {
         Self { solid, parts: Vec::new(), lights: Vec::new(), camera: None, ambient: None, background: None, snap: 0.0 }
+    }
+
+    /// What a leaf of this part looks like.
+    pub fn material(&self, part: Option<PartId>) -> Material {
+        part.and_then(|PartId(index)| self.parts.get(index as usize)).cloned().unwrap_or_default().material
     }
 }

@@ -1,8 +1,11 @@
 //! The leaves of the CSG tree, each in its own coordinate system [Comba-Persiano, §2.1].
 
+mod bvh;
+mod mesh;
 mod polyhedron;
 
-pub use polyhedron::{Polyhedron, PolyhedronError};
+pub use mesh::{Crossing, Mesh, MovedFace, SurfaceRef};
+pub use polyhedron::{FacePlane, Polyhedron, PolyhedronError, Triangle};
 
 use crate::geom::{Affine, Bounds, Vec3};
 use std::sync::Arc;

@@ -1,1 +1,5 @@
-//! (to come)
+//! From hits to light.
+
+mod whitted;
+
+pub use whitted::{Lighting, RayCounts, Whitted};

@@ -1,0 +1,347 @@
+//! Coincident surfaces become one surface.
+//!
+//! Faces that coincide in the model must be *the same object* in the program: only then do rays cross them at the same
+//! parameter, bit for bit, and only then is coincidence something known instead of something guessed. Two faces that are
+//! meant to coincide come out of different matrices and different roundings, so they are compared with a tolerance: at
+//! least what rounding may do, at most the import tolerance that the scene asks for. The larger face wins, since its
+//! plane is known best; planes within tolerance of an axis are put exactly on it.
+
+use crate::geom::{Affine, Bounds, Vec3};
+use crate::primitive::SurfaceRef;
+use crate::surface::{Plane, Quadric, QuadricKind, Surface};
+use std::collections::HashMap;
+
+/// What joining surfaces did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CompileReport {
+    /// Largest distance, in scene units, over which surfaces were joined or moved.
+    pub tolerance: f64,
+    /// How many surfaces were moved by more than rounding explains.
+    pub snapped_surfaces: usize,
+    /// The farthest that a face was moved, in scene units.
+    pub largest_move: f64,
+}
+
+/// A face that wants a surface.
+#[derive(Clone, Debug)]
+pub(super) enum Face {
+    /// A plane, with some corners of the face in it.
+    Plane { plane: Plane, corners: [Vec3; 4] },
+    /// A plane without an end.
+    Unbounded { plane: Plane },
+    /// A quadric patch; `map` takes the unit quadric to the scene, the patch lies between the two local heights.
+    Quadric { kind: QuadricKind, map: Affine, to_local: Affine, heights: (f64, f64) },
+}
+
+impl Face {
+    fn samples(&self) -> Vec<Vec3> {
+        match self {
+            Self::Plane { corners, .. } => corners.to_vec(),
+            Self::Unbounded { .. } => Vec::new(),
+            Self::Quadric { kind: QuadricKind::Sphere, map, .. } => {
+                const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
+                let local = [
+                    Vec3::X,
+                    -Vec3::X,
+                    Vec3::Y,
+                    -Vec3::Y,
+                    Vec3::Z,
+                    -Vec3::Z,
+                    Vec3::new(H, H, 0.0),
+                    Vec3::new(H, 0.0, H),
+                    Vec3::new(0.0, H, H),
+                ];
+                local.map(|p| map.point(p)).to_vec()
+            }
+            Self::Quadric { kind, map, heights, .. } => {
+                // Five points fix the conic, three more the direction.
+                const FIVE: [(f64, f64); 5] = [
+                    (1.0, 0.0),
+                    (0.309_016_994_374_947_45, 0.951_056_516_295_153_5),
+                    (-0.809_016_994_374_947_3, 0.587_785_252_292_473_2),
+                    (-0.809_016_994_374_947_6, -0.587_785_252_292_472_9),
+                    (0.309_016_994_374_947_23, -0.951_056_516_295_153_6),
+                ];
+                let radius = |z: f64| if *kind == QuadricKind::Cone { z.abs() } else { 1.0 };
+                let at = |(x, y): (f64, f64), z: f64| map.point(Vec3::new(x * radius(z), y * radius(z), z));
+                let (low, high) = *heights;
+                FIVE.iter().map(|&p| at(p, low)).chain([0, 2, 3].map(|i| at(FIVE[i], high))).collect()
+            }
+        }
+    }
+
+    /// A length for "the larger face first".
+    fn size(&self) -> f64 {
+        match self {
+            Self::Unbounded { .. } => f64::INFINITY,
+            bounded => Bounds::around(bounded.samples()).diagonal(),
+        }
+    }
+}
+
+/// Gives every face a surface; coincident ones the same. Returns the references in the order of `faces`.
+pub(super) fn intern(
+    faces: &[Face],
+    extent: &Bounds,
+    snap: f64,
+    surfaces: &mut Vec<Surface>,
+) -> (Vec<SurfaceRef>, CompileReport) {
+    let mut order: Vec<(f64, u32)> = faces.iter().enumerate().map(|(i, f)| (f.size(), i as u32)).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut interner = Interner::new(extent, snap, surfaces);
+    let mut refs = vec![SurfaceRef { surface: 0, flipped: false }; faces.len()];
+    for (_, index) in order {
+        refs[index as usize] = interner.face(&faces[index as usize]);
+    }
+    (refs, interner.report)
+}
+
+struct Interner<'a> {
+    surfaces: &'a mut Vec<Surface>,
+    bins: HashMap<[i64; 5], Vec<u32>>,
+    center: Vec3,
+    radius: f64,
+    /// Faces this close are the same, in scene units.
+    tolerance: f64,
+    /// What rounding alone may do.
+    rounding: f64,
+    /// Normals of equal planes differ by no more than this, by component.
+    normal_tolerance: f64,
+    /// Positions of equal surfaces, as far as bins see them, differ by no more than this.
+    place_tolerance: f64,
+    report: CompileReport,
+}
+
+/// Bins are this many tolerances wide, so that most lookups need one bin only.
+const BIN_WIDTH: f64 = 16.0;
+
+impl<'a> Interner<'a> {
+    fn new(extent: &Bounds, snap: f64, surfaces: &'a mut Vec<Surface>) -> Self {
+        let extent = if extent.is_empty() || !extent.is_bounded() {
+            Bounds::new(Vec3::splat(-1.0), Vec3::splat(1.0))
+        } else {
+            *extent
+        };
+        let farthest = extent.min.max_abs().max(extent.max.max_abs());
+        let size = extent.diagonal();
+        // A few dozen roundings of coordinates of this size.
+        let rounding = 64.0 * f64::EPSILON * farthest;
+        let tolerance = rounding.max(snap * size);
+        let normal_tolerance = if snap > 0.0 { 1e-5_f64.max(4.0 * snap) } else { 1e-11 };
+        let place_tolerance = tolerance + normal_tolerance * size;
+        let report = CompileReport { tolerance, ..CompileReport::default() };
+        let (bins, center, radius) = (HashMap::new(), extent.center(), size / 2.0);
+        Self { surfaces, bins, center, radius, tolerance, rounding, normal_tolerance, place_tolerance, report }
+    }
+
+    fn face(&mut self, face: &Face) -> SurfaceRef {
+        match face {
+            Face::Plane { plane, corners } => self.plane(plane, corners),
+            Face::Unbounded { plane } => self.plane(plane, &self.corners_of(plane)),
+            Face::Quadric { kind, map, to_local, .. } => self.quadric(*kind, map, *to_local, &face.samples()),
+        }
+    }
+
+    fn plane(&mut self, plane: &Plane, corners: &[Vec3; 4]) -> SurfaceRef {
+        let plane = self.on_axis(plane, corners);
+        // One of the components of a unit normal exceeds one half; the first that does gives the sign.
+        let sign_of = |n: Vec3| n.to_array().into_iter().find(|c| c.abs() > 0.5).unwrap_or(n.x) < 0.0;
+        let flipped = sign_of(plane.normal);
+        let ambiguous = plane.normal.to_array().iter().any(|c| (c.abs() - 0.5).abs() < 1e-3);
+        let oriented = |flip: bool| match flip {
+            false => plane,
+            true => Plane { normal: -plane.normal, offset: -plane.offset },
+        };
+        for flip in [flipped, !flipped].into_iter().take(if ambiguous { 2 } else { 1 }) {
+            let candidate = oriented(flip);
+            if let Some(surface) = self.find(self.plane_place(&candidate), corners) {
+                return SurfaceRef { surface, flipped: flip };
+            }
+        }
+        let stored = oriented(flipped);
+        let surface = self.insert(Surface::Plane(stored), self.plane_place(&stored));
+        SurfaceRef { surface, flipped }
+    }
+
+    /// Four points of the plane around the scene.
+    fn corners_of(&self, plane: &Plane) -> [Vec3; 4] {
+        let n = plane.normal;
+        let middle = self.center - n * (n.dot(self.center) - plane.offset);
+        let side = if n.x.abs() < 0.5 { Vec3::X } else { Vec3::Y };
+        let u = n.cross(side).normalized().unwrap_or(side) * self.radius;
+        let v = n.cross(u);
+        [middle + u, middle + v, middle - u, middle - v]
+    }
+
+    /// The plane put exactly on an axis where that moves no corner by more than the tolerance.
+    fn on_axis(&mut self, plane: &Plane, corners: &[Vec3; 4]) -> Plane {
+        let n = plane.normal;
+        let axis = if n.x.abs() > 0.9 {
+            0
+        } else if n.y.abs() > 0.9 {
+            1
+        } else {
+            2
+        };
+        let mut exact = Vec3::ZERO;
+        exact[axis] = n[axis].signum();
+        if (n - exact).max_abs() > self.normal_tolerance {
+            return *plane;
+        }
+        let (low, high) = corners
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| (low.min(c[axis]), high.max(c[axis])));
+        let moved = (high - low) / 2.0;
+        if moved > self.tolerance {
+            return *plane;
+        }
+        self.note_move(moved);
+        let height = if low == high { low } else { low + moved };
+        Plane { normal: exact, offset: exact[axis] * height }
+    }
+
+    fn quadric(&mut self, kind: QuadricKind, map: &Affine, to_local: Affine, samples: &[Vec3]) -> SurfaceRef {
+        let anchor = match kind {
+            QuadricKind::Sphere | QuadricKind::Cone => map.translation,
+            QuadricKind::Cylinder => {
+                // The point of the axis that is nearest to the middle of the scene.
+                let axis = map.column(2).normalized().unwrap_or(Vec3::Z);
+                map.translation + axis * axis.dot(self.center - map.translation)
+            }
+        };
+        let place = Place { kind: 1 + kind as i64, at: (anchor - self.center).to_array(), extra: 0.0 };
+        let surface = match self.find(place, samples) {
+            Some(surface) => surface,
+            None => self.insert(Surface::Quadric(Quadric { kind, to_local }), place),
+        };
+        SurfaceRef { surface, flipped: false }
+    }
+
+    fn plane_place(&self, plane: &Plane) -> Place {
+        // Normals are scaled so that their tolerance equals that of places.
+        let scaled = plane.normal * (self.place_tolerance / self.normal_tolerance);
+        Place { kind: 0, at: scaled.to_array(), extra: plane.offset - plane.normal.dot(self.center) }
+    }
+
+    /// A surface within tolerance of all the samples, if there is one near that place: the oldest.
+    fn find(&mut self, place: Place, samples: &[Vec3]) -> Option<u32> {
+        let width = self.place_tolerance * BIN_WIDTH;
+        let probes = place.keys(width, self.place_tolerance);
+        let matching = |surface: u32| {
+            let surface = &self.surfaces[surface as usize];
+            let distance = samples.iter().map(|&p| surface.distance(p)).fold(0.0, f64::max);
+            (distance <= self.tolerance).then_some(distance)
+        };
+        let best = probes
+            .iter()
+            .filter_map(|key| self.bins.get(key))
+            .flatten()
+            .filter_map(|&surface| Some((surface, matching(surface)?)))
+            .min_by_key(|&(surface, _)| surface);
+        let (surface, moved) = best?;
+        self.note_move(moved);
+        Some(surface)
+    }
+
+    fn insert(&mut self, surface: Surface, place: Place) -> u32 {
+        let id = self.surfaces.len() as u32;
+        self.surfaces.push(surface);
+        self.bins.entry(place.key(self.place_tolerance * BIN_WIDTH)).or_default().push(id);
+        id
+    }
+
+    fn note_move(&mut self, moved: f64) {
+        if moved > self.rounding {
+            self.report.snapped_surfaces += 1;
+        }
+        self.report.largest_move = self.report.largest_move.max(moved);
+    }
+}
+
+/// Where a surface is, as far as bins see it.
+#[derive(Clone, Copy)]
+struct Place {
+    kind: i64,
+    at: [f64; 3],
+    extra: f64,
+}
+
+impl Place {
+    fn key(&self, width: f64) -> [i64; 5] {
+        let bin = |v: f64| (v / width).floor() as i64;
+        [self.kind, bin(self.at[0]), bin(self.at[1]), bin(self.at[2]), bin(self.extra)]
+    }
+
+    /// The bins in which a surface within `reach` of this place may be.
+    fn keys(&self, width: f64, reach: f64) -> Vec<[i64; 5]> {
+        let mut keys = vec![self.key(width)];
+        for (slot, v) in [(1, self.at[0]), (2, self.at[1]), (3, self.at[2]), (4, self.extra)] {
+            let bin = |v: f64| (v / width).floor() as i64;
+            let (low, high) = (bin(v - reach), bin(v + reach));
+            if low != high {
+                let here = bin(v);
+                let other = if here == low { high } else { low };
+                for i in 0..keys.len() {
+                    let mut key = keys[i];
+                    key[slot] = other;
+                    keys.push(key);
+                }
+            }
+        }
+        keys
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(z: f64, tilt: f64, size: f64) -> Face {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+            .map(|(x, y)| Vec3::new(x * size, y * size, z + tilt * x * size));
+        let normal = Vec3::new(-tilt, 0.0, 1.0).normalized().unwrap();
+        Face::Plane { plane: Plane { normal, offset: normal.dot(corners[0]) }, corners }
+    }
+
+    fn interned(faces: &[Face], snap: f64) -> (Vec<SurfaceRef>, CompileReport) {
+        let extent = Bounds::new(Vec3::splat(-10.0), Vec3::splat(10.0));
+        intern(faces, &extent, snap, &mut Vec::new())
+    }
+
+    #[test]
+    fn planes_that_differ_by_rounding_are_one() {
+        let (refs, report) = interned(&[square(0.3, 0.0, 1.0), square(0.1 + 0.2, 0.0, 2.0)], 0.0);
+        assert_eq!(refs[0], refs[1]);
+        assert_eq!(report.snapped_surfaces, 0);
+    }
+
+    #[test]
+    fn opposite_faces_share_a_surface() {
+        let Face::Plane { plane, corners } = square(2.0, 0.25, 1.0) else { unreachable!() };
+        let back = Face::Plane { plane: Plane { normal: -plane.normal, offset: -plane.offset }, corners };
+        let (refs, _) = interned(&[square(2.0, 0.25, 1.0), back], 0.0);
+        assert_eq!(refs[0].surface, refs[1].surface);
+        assert_ne!(refs[0].flipped, refs[1].flipped);
+    }
+
+    #[test]
+    fn import_tolerance_joins_what_six_digits_tore_apart() {
+        let faces = [square(1.0, 0.0, 9.0), square(1.000_01, 0.0, 1.0), square(1.001, 0.0, 1.0)];
+        let (exact, _) = interned(&faces, 0.0);
+        assert_ne!(exact[0], exact[1]);
+        let (snapped, report) = interned(&faces, 2e-6);
+        assert_eq!(snapped[0], snapped[1]);
+        assert_ne!(snapped[0], snapped[2]);
+        assert_eq!(report.snapped_surfaces, 1);
+        assert!((report.largest_move - 1e-5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tilted_face_is_judged_where_it_is() {
+        // The large one rises by 9e-4 over its width and stays; the small one rises by 1e-5 and joins the flat one.
+        let flat = square(0.0, 0.0, 10.0);
+        let (refs, _) = interned(&[flat, square(0.0, 1e-4, 9.0), square(0.0, 1e-6, 8.0)], 2e-6);
+        assert_ne!(refs[0], refs[1]);
+        assert_eq!(refs[0], refs[2]);
+    }
+}

@@ -1,0 +1,332 @@
+//! From solids to programs: primitives become intersections of surfaces, coincident surfaces one.
+
+use super::expr::{Expr, Op};
+use super::intern::{Face, intern};
+use super::{Catalog, CompileReport, Constant, Leaf, Literal, Program, Word};
+use crate::geom::{Affine, Bounds, Vec3};
+use crate::model::{BoolOp, Node, PartId, Solid};
+use crate::primitive::{FacePlane, Mesh, MovedFace, Polyhedron, Primitive, SurfaceRef};
+use crate::surface::{Plane, QuadricKind, Surface};
+use std::sync::Arc;
+
+/// Everything about some bodies that does not depend on where one looks.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// What the programs refer to.
+    pub catalog: Catalog,
+    /// A program for each body.
+    pub bodies: Vec<Program>,
+    /// What joining coincident surfaces did.
+    pub report: CompileReport,
+}
+
+/// Compiles bodies that share their surfaces. `snap` is the import tolerance relative to the size of everything bounded.
+///
+/// # Panics
+/// If there are more than 2³⁰ uses of surfaces.
+pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
+    let mut lowering = Lowering { snap, ..Lowering::default() };
+    let lowered: Vec<Lowered> =
+        bodies.iter().map(|body| lowering.solid(body, &Affine::IDENTITY, None, false)).collect();
+    let extent = lowered.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounded));
+
+    let mut catalog = Catalog { leaves: lowering.leaves, ..Catalog::default() };
+    let (refs, report) = intern(&lowering.faces, &extent, snap, &mut catalog.surfaces);
+    let meshes: Vec<SurfaceRef> =
+        lowering.meshes.iter().map(|pending| pending.build(&refs, report.tolerance, &mut catalog.surfaces)).collect();
+    let surface_of = |literal: &PendingLiteral| match literal.shape {
+        Shape::Face(face) => refs[face as usize],
+        Shape::Mesh(mesh) => meshes[mesh as usize],
+    };
+    let literals = &lowering.literals;
+    catalog.literals = literals.iter().map(|l| Literal { surface: surface_of(l).surface, leaf: l.leaf }).collect();
+    assert!(literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
+
+    // Faces stored the other way round turn their literals' signs.
+    let orient = |program: Expr| -> Constant {
+        match program.into_words() {
+            Constant::Words(mut words) => {
+                for word in &mut words {
+                    if let Word::Literal { index, negated } = Word::decode(*word) {
+                        let flipped = surface_of(&literals[index as usize]).flipped;
+                        *word = Word::Literal { index, negated: negated ^ flipped }.encode();
+                    }
+                }
+                Constant::Words(words)
+            }
+            constant => constant,
+        }
+    };
+    let bodies = lowered
+        .into_iter()
+        .map(|body| Program { whole: orient(body.whole), outer: orient(body.outer), bounds: body.bounded })
+        .collect();
+    Compiled { catalog, bodies, report }
+}
+
+/// A subtree, lowered.
+struct Lowered {
+    /// Its program.
+    whole: Expr,
+    /// What is left of the program far away from everything bounded.
+    outer: Expr,
+    /// A box around the solid (around what it is the complement of, where it is negated).
+    bounds: Bounds,
+    /// A box around every maximal bounded part of it.
+    bounded: Bounds,
+}
+
+#[derive(Default)]
+struct Lowering {
+    snap: f64,
+    faces: Vec<Face>,
+    meshes: Vec<PendingMesh>,
+    literals: Vec<PendingLiteral>,
+    leaves: Vec<Leaf>,
+}
+
+/// A literal whose surface is not known yet.
+struct PendingLiteral {
+    shape: Shape,
+    leaf: u32,
+}
+
+#[derive(Clone, Copy)]
+enum Shape {
+    /// Index into [`Lowering::faces`].
+    Face(u32),
+    /// Index into [`Lowering::meshes`].
+    Mesh(u32),
+}
+
+/// A polyhedron to be made a mesh when its faces have surfaces.
+struct PendingMesh {
+    polyhedron: Arc<Polyhedron>,
+    map: Affine,
+    /// Its faces with an area are those of [`Lowering::faces`] from here on.
+    first_face: usize,
+}
+
+impl PendingMesh {
+    fn build(&self, refs: &[SurfaceRef], tolerance: f64, surfaces: &mut Vec<Surface>) -> SurfaceRef {
+        let mut faces = refs[self.first_face..].iter().copied();
+        let mut next = |_: &MovedFace| faces.next().expect("the same faces have an area as before");
+        let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
+        let surface = surfaces.len() as u32;
+        surfaces.push(Surface::Mesh(Arc::new(mesh.expect("lowered only where a face has an area"))));
+        SurfaceRef { surface, flipped: false }
+    }
+}
+
+impl Lowering {
+    /// Lowers a solid; `negated` asks for its complement.
+    fn solid(&mut self, solid: &Solid, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
+        const RED_ZONE: usize = 64 << 10;
+        const SEGMENT: usize = 4 << 20;
+        stacker::maybe_grow(RED_ZONE, SEGMENT, || match solid.node() {
+            Node::Empty => Lowered {
+                whole: Expr::Constant(negated),
+                outer: Expr::Constant(negated),
+                bounds: Bounds::EMPTY,
+                bounded: Bounds::EMPTY,
+            },
+            Node::Transform(inner, child) => self.solid(child, &(*map * *inner), part, negated),
+            Node::Part(id, child) => {
+                // Inner parts win: the first that is set, seen from the leaf.
+                self.solid(child, map, Some(*id), negated)
+            }
+            Node::Combine(op, children) => self.combine(*op, children, map, part, negated),
+            Node::Primitive(primitive) => self.primitive(primitive, map, part, negated),
+        })
+    }
+
+    fn combine(
+        &mut self,
+        op: BoolOp,
+        children: &[Solid],
+        map: &Affine,
+        part: Option<PartId>,
+        negated: bool,
+    ) -> Lowered {
+        let children: Vec<Lowered> = children
+            .iter()
+            .enumerate()
+            .map(|(i, child)| self.solid(child, map, part, negated ^ (op == BoolOp::Difference && i > 0)))
+            .collect();
+        let bounds = match op {
+            BoolOp::Union => children.iter().fold(Bounds::EMPTY, |all, c| all.union(c.bounds)),
+            BoolOp::Intersection => children.iter().fold(Bounds::ALL, |all, c| all.intersection(c.bounds)),
+            BoolOp::Difference => children.first().map_or(Bounds::EMPTY, |c| c.bounds),
+        };
+        let bounds = if bounds.is_empty() { Bounds::EMPTY } else { bounds };
+        let expr_op = if op == BoolOp::Union { Op::Or } else { Op::And }.under(negated);
+        let bounded = match bounds.is_bounded() {
+            true => bounds,
+            false => children.iter().fold(Bounds::EMPTY, |all, c| all.union(c.bounded)),
+        };
+        let (wholes, outers): (Vec<Expr>, Vec<Expr>) = children.into_iter().map(|c| (c.whole, c.outer)).unzip();
+        let whole = Expr::combine(expr_op, wholes);
+        let outer = if bounds.is_bounded() { Expr::Constant(negated) } else { Expr::combine(expr_op, outers) };
+        Lowered { whole, outer, bounds, bounded }
+    }
+
+    fn primitive(&mut self, primitive: &Primitive, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
+        let nothing = |whole: bool| Lowered {
+            whole: Expr::Constant(whole),
+            outer: Expr::Constant(whole),
+            bounds: Bounds::EMPTY,
+            bounded: Bounds::EMPTY,
+        };
+        // Products of invertible maps may still be flat to working precision, or overflow.
+        let Some(inverse) = map.inverse() else {
+            return nothing(negated);
+        };
+        let leaf = self.leaves.len() as u32;
+        self.leaves.push(Leaf { part });
+        let mut faces = FaceList { map, inverse, faces: Vec::new() };
+        let mut concave = None;
+        match primitive {
+            Primitive::Block => faces.block(),
+            Primitive::Sphere => faces.quadric(QuadricKind::Sphere, &Affine::IDENTITY, (-1.0, 1.0)),
+            Primitive::Cylinder => {
+                faces.quadric(QuadricKind::Cylinder, &Affine::IDENTITY, (0.0, 1.0));
+                faces.cap(-Vec3::Z, 1.0, 0.0);
+                faces.cap(Vec3::Z, 1.0, 1.0);
+            }
+            Primitive::Cone { top } => faces.cone(*top),
+            Primitive::HalfSpace => faces.half_space(),
+            Primitive::Torus { .. } => return nothing(negated),
+            Primitive::Polyhedron(polyhedron) => {
+                faces.polyhedron(polyhedron);
+                if faces.faces.is_empty() {
+                    return nothing(negated);
+                }
+                let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
+                if !polyhedron.is_convex(self.snap.max(1e-12) * size) {
+                    concave = Some(polyhedron);
+                }
+            }
+        }
+        let first_face = self.faces.len();
+        let literals: Vec<Expr> = match concave {
+            Some(polyhedron) => {
+                let mesh = PendingMesh { polyhedron: Arc::clone(polyhedron), map: *map, first_face };
+                self.meshes.push(mesh);
+                vec![self.literal(Shape::Mesh(self.meshes.len() as u32 - 1), leaf, negated)]
+            }
+            None => (0..faces.faces.len())
+                .map(|i| self.literal(Shape::Face((first_face + i) as u32), leaf, negated))
+                .collect(),
+        };
+        self.faces.append(&mut faces.faces);
+        let bounds = primitive.bounds(map);
+        let outer = match (bounds.is_bounded(), &literals[..]) {
+            (false, &[Expr::Literal { index, negated }]) => Expr::Literal { index, negated },
+            _ => Expr::Constant(negated),
+        };
+        let bounded = if bounds.is_bounded() { bounds } else { Bounds::EMPTY };
+        Lowered { whole: Expr::combine(Op::And.under(negated), literals), outer, bounds, bounded }
+    }
+}
+
+impl Lowering {
+    fn literal(&mut self, shape: Shape, leaf: u32, negated: bool) -> Expr {
+        let index = self.literals.len() as u32;
+        self.literals.push(PendingLiteral { shape, leaf });
+        Expr::Literal { index, negated }
+    }
+}
+
+/// The faces of one primitive, moved to the scene by `map`.
+struct FaceList<'a> {
+    map: &'a Affine,
+    inverse: Affine,
+    faces: Vec<Face>,
+}
+
+impl FaceList<'_> {
+    /// A planar face with the given outward normal, in local coordinates, through four corners.
+    fn plane(&mut self, normal: Vec3, corners: [Vec3; 4]) {
+        let corners = corners.map(|c| self.map.point(c));
+        if let Some(plane) = self.moved_plane(normal, &corners) {
+            self.faces.push(Face::Plane { plane, corners });
+        }
+    }
+
+    /// Normals move by the transposed inverse. An invertible map leaves none without a direction.
+    fn moved_plane(&self, normal: Vec3, points: &[Vec3]) -> Option<Plane> {
+        let normal = self.inverse.transposed_vector(normal).normalized()?;
+        let middle = points.iter().fold(Vec3::ZERO, |sum, &p| sum + p) / points.len() as f64;
+        Some(Plane { normal, offset: normal.dot(middle) })
+    }
+
+    fn block(&mut self) {
+        for axis in 0..3 {
+            for (height, sign) in [(0.0, -1.0), (1.0, 1.0)] {
+                let mut normal = Vec3::ZERO;
+                normal[axis] = sign;
+                let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| {
+                    let mut corner = Vec3::ZERO;
+                    corner[axis] = height;
+                    corner[(axis + 1) % 3] = u;
+                    corner[(axis + 2) % 3] = v;
+                    corner
+                });
+                self.plane(normal, corners);
+            }
+        }
+    }
+
+    /// A disc about the z axis.
+    fn cap(&mut self, normal: Vec3, radius: f64, z: f64) {
+        let corners = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        self.plane(normal, corners.map(|(x, y)| Vec3::new(x * radius, y * radius, z)));
+    }
+
+    /// The side is a part of the double cone X² + Y² < Z² with Z = 1 - (1 - top) z.
+    fn cone(&mut self, top: f64) {
+        let slope = 1.0 - top;
+        let from_cone = Affine {
+            translation: Vec3::new(0.0, 0.0, 1.0 / slope),
+            ..Affine::scale(Vec3::new(1.0, 1.0, -1.0 / slope))
+        };
+        self.quadric(QuadricKind::Cone, &from_cone, (1.0, (1.0 + top) / 2.0));
+        self.cap(-Vec3::Z, 1.0, 0.0);
+        // At a pointed end the plane only parts the nappes; it is known as well as the cone.
+        self.cap(Vec3::Z, if top > 0.0 { top } else { 1.0 }, 1.0);
+    }
+
+    /// The faces that have an area, turned outwards also where the map mirrors.
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) {
+        let mirrored = self.map.determinant() < 0.0;
+        for face in polyhedron.faces() {
+            let mut corners: Vec<Vec3> =
+                face.iter().map(|&i| self.map.point(polyhedron.points()[i as usize])).collect();
+            if mirrored {
+                corners.reverse();
+            }
+            if let Some(fit) = FacePlane::fit(&corners) {
+                let plane = Plane { normal: fit.normal, offset: fit.normal.dot(fit.point) };
+                let some = [0, 1, 2, 3].map(|i| corners[i * corners.len() / 4]);
+                self.faces.push(Face::Plane { plane, corners: some });
+            }
+        }
+    }
+
+    /// The half-space z >= 0.
+    fn half_space(&mut self) {
+        let on_plane = self.map.point(Vec3::ZERO);
+        if let Some(plane) = self.moved_plane(-Vec3::Z, &[on_plane]) {
+            self.faces.push(Face::Unbounded { plane });
+        }
+    }
+
+    /// A quadric; `placed` takes its own coordinates to those of the primitive.
+    fn quadric(&mut self, kind: QuadricKind, placed: &Affine, heights: (f64, f64)) {
+        let map = *self.map * *placed;
+        if let Some(from_primitive) = placed.inverse() {
+            let to_local = from_primitive * self.inverse;
+            self.faces.push(Face::Quadric { kind, map, to_local, heights });
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Programs for people to read.
+
+use super::{Catalog, Constant, Word};
+use crate::surface::Surface;
+use std::fmt::Write;
+
+/// The program, a node a line, indented by depth.
+pub fn program_text(catalog: &Catalog, program: &Constant) -> String {
+    let words = match program {
+        Constant::Everywhere(true) => return "everywhere\n".into(),
+        Constant::Everywhere(false) => return "nothing\n".into(),
+        Constant::Words(words) => words,
+    };
+    let mut text = String::new();
+    let mut open: Vec<usize> = Vec::new();
+    for (at, &word) in words.iter().enumerate() {
+        while open.last().is_some_and(|&end| end <= at) {
+            open.pop();
+        }
+        let indent = 2 * open.len();
+        let line = match Word::decode(word) {
+            Word::And { len } => {
+                open.push(at + 1 + len as usize);
+                "and".to_string()
+            }
+            Word::Or { len } => {
+                open.push(at + 1 + len as usize);
+                "or".to_string()
+            }
+            Word::Literal { index, negated } => {
+                let literal = catalog.literals[index as usize];
+                let sign = if negated { "outside" } else { "inside" };
+                let surface = surface_text(&catalog.surfaces[literal.surface as usize]);
+                format!("{sign} s{} ({surface}), leaf {}", literal.surface, literal.leaf)
+            }
+        };
+        let _ = writeln!(text, "{:indent$}{line}", "");
+    }
+    text
+}
+
+fn surface_text(surface: &Surface) -> String {
+    match surface {
+        Surface::Plane(p) => {
+            format!("plane {:.6} {:.6} {:.6} < {:.6}", p.normal.x, p.normal.y, p.normal.z, p.offset)
+        }
+        Surface::Mesh(m) => format!("mesh of {} triangles", m.triangle_count()),
+        Surface::Quadric(q) => format!("{:?}", q.kind).to_lowercase(),
+    }
+}

@@ -1,0 +1,151 @@
+//! The render loop: tiles are the unit of threads, progress and interruption; the film does not depend on their order.
+
+use super::Film;
+use crate::exec::{Cancelled, Exec};
+use crate::model::{Camera, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
+use crate::shade::{Lighting, RayCounts, Whitted};
+use crate::trace::{Counters, Scratch, Tracer};
+use rayon::prelude::*;
+
+/// What is seen where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// What the scene says, or the default.
+    Scene,
+    /// This colour.
+    Color(Rgb),
+    /// Nothing: the film stays transparent. Mirrors see the scene's background.
+    Transparent,
+}
+
+/// What to render: everything here changes pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// From where.
+    pub camera: Camera,
+    /// Pixels in a row.
+    pub width_px: u32,
+    /// Rows.
+    pub height_px: u32,
+    /// Rays for each pixel; one goes through its middle, more are spread evenly over it.
+    pub samples: u32,
+    /// How often a ray may be reflected or refracted.
+    pub max_bounces: u32,
+    /// What is seen where nothing is.
+    pub background: Background,
+}
+
+/// What rendering took, in numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RenderStats {
+    /// Rays by kind.
+    pub rays: RayCounts,
+    /// Cells, surfaces and leaks.
+    pub counters: Counters,
+}
+
+const TILE_PX: u32 = 16;
+
+/// Renders the scene. The tracer must have been built from the scene's solid, or from its bodies.
+///
+/// # Errors
+/// If `exec` is cancelled.
+pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Result<(Film, RenderStats), Cancelled> {
+    let scene_background = scene.background.unwrap_or(DEFAULT_BACKGROUND);
+    let lighting = Lighting {
+        lights: if scene.lights.is_empty() { default_lights(&view.camera) } else { scene.lights.clone() },
+        ambient: scene.ambient.unwrap_or(DEFAULT_AMBIENT),
+        background: match view.background {
+            Background::Color(color) => color,
+            Background::Scene | Background::Transparent => scene_background,
+        },
+        transparent: view.background == Background::Transparent,
+    };
+    let integrator = Whitted::new(scene, tracer, lighting, scene.bodies().ior, view.max_bounces);
+    let (width, height) = (view.width_px, view.height_px);
+    let tiles_across = width.div_ceil(TILE_PX);
+    let tiles = tiles_across * height.div_ceil(TILE_PX);
+    let tile_origin = |tile: u32| ((tile % tiles_across) * TILE_PX, (tile / tiles_across) * TILE_PX);
+
+    exec.progress.begin("rendering", u64::from(tiles));
+    let rendered: Result<Vec<Tile>, Cancelled> = exec.install(|| {
+        (0..tiles)
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, tile| {
+                exec.cancel.check()?;
+                let tile = Tile::render(&integrator, view, tile_origin(tile), scratch);
+                exec.progress.advance(1);
+                Ok(tile)
+            })
+            .collect()
+    });
+    exec.progress.end();
+
+    let mut pixels = vec![[0.0; 4]; width as usize * height as usize];
+    let mut stats = RenderStats::default();
+    for (tile, number) in rendered?.iter().zip(0..) {
+        let (left, top) = tile_origin(number);
+        for (row, y) in tile.pixels.chunks(tile.width as usize).zip(top..) {
+            let start = y as usize * width as usize + left as usize;
+            pixels[start..start + row.len()].copy_from_slice(row);
+        }
+        stats.add(&tile.stats);
+    }
+    Ok((Film::new(width, height, pixels), stats))
+}
+
+impl RenderStats {
+    fn add(&mut self, o: &Self) {
+        self.rays.camera += o.rays.camera;
+        self.rays.shadow += o.rays.shadow;
+        self.rays.reflected += o.rays.reflected;
+        self.rays.refracted += o.rays.refracted;
+        self.counters.cells += o.counters.cells;
+        self.counters.surface_tests += o.counters.surface_tests;
+        self.counters.leaks += o.counters.leaks;
+    }
+}
+
+struct Tile {
+    width: u32,
+    pixels: Vec<[f32; 4]>,
+    stats: RenderStats,
+}
+
+impl Tile {
+    fn render(integrator: &Whitted, view: &View, (left, top): (u32, u32), scratch: &mut Scratch) -> Self {
+        let rays = view.camera.rays(view.width_px, view.height_px);
+        let right = (left + TILE_PX).min(view.width_px);
+        let bottom = (top + TILE_PX).min(view.height_px);
+        let samples = view.samples.max(1);
+        let mut stats = RenderStats::default();
+        let mut pixels = Vec::with_capacity(((right - left) * (bottom - top)) as usize);
+        scratch.counters = Counters::default();
+        for y in top..bottom {
+            for x in left..right {
+                let (mut color, mut alpha) = (Rgb::BLACK, 0.0);
+                for sample in 0..samples {
+                    let (dx, dy) = sample_place(sample, samples);
+                    let ray = rays.ray(f64::from(x) + dx, f64::from(y) + dy);
+                    let seen = integrator.camera_ray(&ray, scratch, &mut stats.rays);
+                    color += seen.color;
+                    alpha += seen.alpha;
+                }
+                let share = 1.0 / f64::from(samples);
+                pixels.push([color.r * share, color.g * share, color.b * share, alpha * share].map(|v| v as f32));
+            }
+        }
+        stats.counters = scratch.counters;
+        Self { width: right - left, pixels, stats }
+    }
+}
+
+/// Where in its pixel a sample lies: the middle for a single one, else a rank-1 lattice by the golden ratio.
+fn sample_place(sample: u32, samples: u32) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    if samples == 1 {
+        return (0.5, 0.5);
+    }
+    let i = f64::from(sample);
+    ((i + 0.5) / f64::from(samples), (0.5 + i * GOLDEN).fract())
+}

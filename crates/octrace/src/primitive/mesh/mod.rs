@@ -1,0 +1,253 @@
+//! A polyhedron of any shape, placed in the world, ready for rays.
+//!
+//! In come a [`Polyhedron`] and where it goes; out come, for any line, all crossings with its surface. The surface is
+//! watertight: whether the line passes a triangle is decided exactly, for corners projected along the ray as
+//! [Woop, Benthin, Wald 2013] do, with a symbolic nudge for lines through edges and corners. So each line enters as often
+//! as it leaves, always. *Where* it crosses a triangle is the business of the plane that the triangle lies in, which
+//! other solids may share: equal planes give equal parameters, to the bit.
+
+mod line;
+mod overlap;
+
+use super::bvh::Bvh;
+use super::polyhedron::{FacePlane, Polyhedron};
+use crate::geom::{Affine, Bounds, Ray, Vec3};
+use line::Line;
+use std::ops::ControlFlow;
+
+/// A polyhedron in world space, for which rays can be traced. See the [module](self).
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    points: Vec<Vec3>,
+    triangles: Vec<MeshTriangle>,
+    tree: Bvh,
+    slack: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct MeshTriangle {
+    /// Counter-clockwise from outside.
+    corners: [u32; 3],
+    surface: SurfaceRef,
+}
+
+/// Which of the caller's surfaces a face lies in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurfaceRef {
+    /// The caller's number of the surface.
+    pub surface: u32,
+    /// Whether that surface's own normal points into the polyhedron.
+    pub flipped: bool,
+}
+
+/// A face of the polyhedron where it stands in the world, for which the caller is to name a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct MovedFace<'a> {
+    /// Index of the face in [`Polyhedron::faces`].
+    pub face: usize,
+    /// Its corners, counter-clockwise from outside.
+    pub corners: &'a [Vec3],
+    /// The plane that fits the corners best.
+    pub plane: FacePlane,
+}
+
+/// A ray passing through a triangle of a [`Mesh`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Ray parameter.
+    pub t: f64,
+    /// Whether the ray goes into the polyhedron here (and not out of it).
+    pub entering: bool,
+    /// Index of the triangle.
+    pub triangle: u32,
+}
+
+impl Mesh {
+    /// The polyhedron moved by `map`, which may mirror. `surface_of` names the surface for each face that has an area,
+    /// in the order of the faces.
+    ///
+    /// `slack` (scene units) says how far a surface may lie off the face that it stands for: the parameter of a crossing
+    /// is taken from the surface, but not further than this outside the triangle's bounding box.
+    ///
+    /// `None` where no face has an area after the move, so that nothing is left.
+    pub fn new(
+        polyhedron: &Polyhedron,
+        map: &Affine,
+        slack: f64,
+        surface_of: &mut dyn FnMut(&MovedFace) -> SurfaceRef,
+    ) -> Option<Self> {
+        let mirrored = map.determinant() < 0.0;
+        let points: Vec<Vec3> = polyhedron.points().iter().map(|&p| map.point(p)).collect();
+        let mut corners = Vec::new();
+        let mut surfaces = Vec::with_capacity(polyhedron.faces().len());
+        for (face, indices) in polyhedron.faces().iter().enumerate() {
+            corners.clear();
+            corners.extend(indices.iter().map(|&i| points[i as usize]));
+            if mirrored {
+                corners.reverse();
+            }
+            let plane = FacePlane::fit(&corners);
+            surfaces.push(plane.map(|plane| surface_of(&MovedFace { face, corners: &corners, plane })));
+        }
+        let surfaces = adopt(surfaces, polyhedron.faces())?;
+        let placed = polyhedron.triangles().iter().map(|t| {
+            let [a, b, c] = t.corners;
+            MeshTriangle { corners: if mirrored { [c, b, a] } else { [a, b, c] }, surface: surfaces[t.face as usize] }
+        });
+        let triangles: Vec<MeshTriangle> = placed.collect();
+        let boxes: Vec<Bounds> =
+            triangles.iter().map(|t| Bounds::around(t.corners.map(|i| points[i as usize]))).collect();
+        Some(Self { tree: Bvh::build(&boxes), points, triangles, slack })
+    }
+
+    /// The smallest axis-aligned box around the mesh.
+    pub fn bounds(&self) -> Bounds {
+        self.tree.bounds()
+    }
+
+    /// How many triangles there are.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The surface that a triangle lies in.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    pub fn surface(&self, triangle: u32) -> SurfaceRef {
+        self.triangles[triangle as usize].surface
+    }
+
+    /// Replaces `out` by all crossings of the whole line, `t` from -inf to inf, in ascending order; those at one `t`
+    /// by triangle. As many enter as leave, also where the line runs through edges and corners or along faces.
+    ///
+    /// `surface_t` says where the ray meets a surface by its number; where it does not (infinite or NaN), or far away,
+    /// the crossing lies within the triangle all the same.
+    pub fn crossings(&self, ray: &Ray, surface_t: impl Fn(u32) -> f64, out: &mut Vec<Crossing>) {
+        out.clear();
+        let line = Line::new(ray);
+        let _ = self.tree.visit::<()>(
+            |bounds| line.may_touch(bounds),
+            |triangle| {
+                let MeshTriangle { corners, surface } = self.triangles[triangle as usize];
+                let corners = corners.map(|i| self.points[i as usize]);
+                if let Some(entering) = line.crosses(corners) {
+                    let (low, high) = reach(ray, &Bounds::around(corners), self.slack);
+                    let t = surface_t(surface.surface);
+                    let t = if t.is_finite() { t.max(low).min(high) } else { low + 0.5 * (high - low) };
+                    out.push(Crossing { t, entering, triangle });
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        out.sort_unstable_by(|a, b| a.t.total_cmp(&b.t).then(a.triangle.cmp(&b.triangle)));
+    }
+
+    /// Replaces `out` by the crossings at which the line changes between outside and inside, ascending, no two at one
+    /// `t`: first it enters, then it leaves, and so on; at last it leaves.
+    ///
+    /// What happens at one `t` happens at once; of several triangles there the first one in the order of the mesh that
+    /// goes the right way stands for all.
+    pub fn toggles(&self, ray: &Ray, surface_t: impl Fn(u32) -> f64, out: &mut Vec<Crossing>) {
+        self.crossings(ray, surface_t, out);
+        let (mut kept, mut next, mut winding) = (0, 0, 0_i32);
+        while next < out.len() {
+            let was_inside = winding > 0;
+            let first = next;
+            while next < out.len() && out[next].t == out[first].t {
+                winding += if out[next].entering { 1 } else { -1 };
+                next += 1;
+            }
+            let inside = winding > 0;
+            if inside != was_inside {
+                let going = out[first..next].iter().filter(|c| c.entering == inside);
+                let chosen = *going.min_by_key(|c| c.triangle).expect("winding changes by crossings of that sign");
+                out[kept] = chosen;
+                kept += 1;
+            }
+            next = next.max(first + 1);
+        }
+        out.truncate(kept);
+    }
+
+    /// Whether the point is inside. On the surface the answer is one or the other.
+    pub fn contains(&self, point: Vec3) -> bool {
+        let line = Line::new(&Ray { origin: point, direction: Vec3::Z });
+        let mut winding = 0_i32;
+        let _ = self.tree.visit::<()>(
+            |bounds| bounds.max.z >= point.z && line.may_touch(bounds),
+            |triangle| {
+                let corners = self.triangles[triangle as usize].corners.map(|i| self.points[i as usize]);
+                if let Some(entering) = line.crosses(corners) {
+                    let ahead = line::is_behind(corners, point) != entering;
+                    winding += i32::from(ahead) * if entering { -1 } else { 1 };
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        winding > 0
+    }
+
+    /// Whether the surface may touch a box. False only where it does not: so a box that is not touched lies inside or
+    /// outside as a whole. Rounding is the caller's: make the box larger by what matters.
+    pub fn touches_box(&self, center: Vec3, half_extents: Vec3) -> bool {
+        // A crossing lies off its triangle by the slack at most, and its surface off the triangle's plane once more.
+        let half_extents = half_extents + Vec3::splat(2.0 * self.slack);
+        let probe = Bounds::new(center - half_extents, center + half_extents);
+        let outcome = self.tree.visit(
+            |bounds| !bounds.intersection(probe).is_empty(),
+            |triangle| {
+                let corners = self.triangles[triangle as usize].corners.map(|i| self.points[i as usize]);
+                match overlap::triangle_reaches_box(corners, center, half_extents) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            },
+        );
+        outcome.is_break()
+    }
+}
+
+/// The parameters for which the line is in the box grown by `slack`, which it is known to pass.
+fn reach(ray: &Ray, bounds: &Bounds, slack: f64) -> (f64, f64) {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for axis in 0..3 {
+        let (o, d) = (ray.origin[axis], ray.direction[axis]);
+        let a = (bounds.min[axis] - slack - o) / d;
+        let b = (bounds.max[axis] + slack - o) / d;
+        // Along a line parallel to the axis' planes this is NaN or infinite, and min and max let it pass.
+        low = low.max(a.min(b));
+        high = high.min(a.max(b));
+    }
+    if low <= high { (low, high) } else { (high, low) }
+}
+
+/// Gives faces without a surface of their own the surface of a neighbour, or else of the first face that has one.
+fn adopt(mut surfaces: Vec<Option<SurfaceRef>>, faces: &[Vec<u32>]) -> Option<Vec<SurfaceRef>> {
+    let fallback = surfaces.iter().flatten().next().copied()?;
+    if surfaces.iter().all(Option::is_some) {
+        return surfaces.into_iter().collect();
+    }
+    // The last face at each edge, by the edge's direction: the neighbour walks it the other way.
+    let edges = |face: &[u32]| (0..face.len()).map(|i| (face[i], face[(i + 1) % face.len()])).collect::<Vec<_>>();
+    let mut at_edge = std::collections::HashMap::new();
+    for (number, face) in faces.iter().enumerate() {
+        at_edge.extend(edges(face).into_iter().map(|edge| (edge, number)));
+    }
+    // Degenerate faces may border on each other, so what has been adopted is passed on.
+    let mut orphans: Vec<usize> = (0..faces.len()).filter(|&i| surfaces[i].is_none()).collect();
+    loop {
+        let before = orphans.len();
+        orphans.retain(|&orphan| {
+            let neighbours = edges(&faces[orphan]).into_iter().filter_map(|(a, b)| at_edge.get(&(b, a)));
+            surfaces[orphan] = neighbours.filter_map(|&n| surfaces[n]).next();
+            surfaces[orphan].is_none()
+        });
+        if orphans.is_empty() || orphans.len() == before {
+            return Some(surfaces.into_iter().map(|s| s.unwrap_or(fallback)).collect());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! Faces one by one: the plane that fits, and triangles that cover.
+
+use super::Triangle;
+use super::topology::Face;
+use crate::geom::Vec3;
+use earcut::Earcut;
+use std::collections::HashMap;
+
+/// How far the corners of a face may lie off its plane, relative to the polyhedron's diagonal. Coordinates in files have
+/// six digits; with that many, a planar face is planar to about half of this.
+pub(super) const PLANARITY: f64 = 1e-5;
+
+/// The plane of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacePlane {
+    /// Unit normal, outward.
+    pub normal: Vec3,
+    /// A point of the plane: the mean of the corners.
+    pub point: Vec3,
+}
+
+impl FacePlane {
+    /// The plane that fits a closed polygon best [Newell]: its normal is the direction from which the polygon looks
+    /// largest, counter-clockwise. `None` where the area is zero to rounding.
+    ///
+    /// A polygon in a plane with a constant coordinate gets that plane exactly.
+    pub fn fit(corners: &[Vec3]) -> Option<Self> {
+        let (&first, rest) = corners.split_first()?;
+        let (mut area, mut magnitude) = (Vec3::ZERO, 0.0_f64);
+        for pair in rest.windows(2) {
+            let (a, b) = (pair[0] - first, pair[1] - first);
+            area += a.cross(b);
+            magnitude += a.length() * b.length();
+        }
+        // Every product above is good to a unit in its last place; 16 of them bound the sum's error with room.
+        if area.length() <= 16.0 * f64::EPSILON * magnitude {
+            return None;
+        }
+        let offset = rest.iter().fold(Vec3::ZERO, |sum, &p| sum + (p - first)) / corners.len() as f64;
+        Some(Self { normal: area.normalized()?, point: first + offset })
+    }
+
+    /// Signed distance of a point, positive outside.
+    pub fn distance(&self, p: Vec3) -> f64 {
+        self.normal.dot(p - self.point)
+    }
+}
+
+/// Splits faces that are not planar within `tolerance` into triangles, and covers all faces with triangles.
+pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> (Vec<Vec<u32>>, Vec<Triangle>) {
+    let mut planar: Vec<Vec<u32>> = Vec::with_capacity(faces.len());
+    let mut triangles = Vec::with_capacity(faces.len() * 2);
+    let mut cutter = Cutter::default();
+    let mut coordinates: Vec<Vec3> = Vec::new();
+    for Face { corners, .. } in faces {
+        coordinates.clear();
+        coordinates.extend(corners.iter().map(|&i| points[i as usize]));
+        let plane = FacePlane::fit(&coordinates);
+        let warped = |p: &FacePlane| coordinates.iter().any(|&q| p.distance(q).abs() > tolerance);
+        let pieces = cutter.cut(&corners, &coordinates, plane);
+        if corners.len() > 3 && plane.is_some_and(|p| warped(&p)) {
+            for corners in pieces {
+                triangles.push(Triangle { corners, face: planar.len() as u32 });
+                planar.push(corners.to_vec());
+            }
+        } else {
+            triangles.extend(pieces.into_iter().map(|corners| Triangle { corners, face: planar.len() as u32 }));
+            planar.push(corners);
+        }
+    }
+    (planar, triangles)
+}
+
+/// Cuts polygons into triangles; keeps its memory from one polygon to the next.
+struct Cutter {
+    earcut: Earcut<f64>,
+    cut: Vec<u32>,
+}
+
+impl Default for Cutter {
+    fn default() -> Self {
+        Self { earcut: Earcut::new(), cut: Vec::new() }
+    }
+}
+
+impl Cutter {
+    /// Triangles that cover the polygon, turned as it is; together they have *exactly* its edges, as chains.
+    fn cut(&mut self, corners: &[u32], coordinates: &[Vec3], plane: Option<FacePlane>) -> Vec<[u32; 3]> {
+        if let &[a, b, c] = corners {
+            return vec![[a, b, c]];
+        }
+        let mut pieces = Vec::with_capacity(corners.len() - 2);
+        if let Some(plane) = plane {
+            let flat = flatten(coordinates, plane.normal);
+            self.earcut.earcut(flat.iter().copied(), &[] as &[u32], &mut self.cut);
+            let doubled_area = |t: &[u32]| {
+                let [a, b, c] = [0, 1, 2].map(|i| flat[t[i] as usize]);
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            };
+            let clockwise = self.cut.chunks_exact(3).map(doubled_area).sum::<f64>() < 0.0;
+            for t in self.cut.chunks_exact(3) {
+                let [a, b, c] = [0, 1, 2].map(|i| corners[t[i] as usize]);
+                pieces.push(if clockwise { [c, b, a] } else { [a, b, c] });
+            }
+        }
+        close(corners, &mut pieces);
+        pieces
+    }
+}
+
+/// The polygon seen against its normal, counter-clockwise: the coordinate along the normal's largest part is dropped.
+fn flatten(coordinates: &[Vec3], normal: Vec3) -> Vec<[f64; 2]> {
+    let n = normal.abs();
+    let axis = if n.x >= n.y && n.x >= n.z { 0 } else { if n.y >= n.z { 1 } else { 2 } };
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let first = coordinates[0];
+    let pair = |p: Vec3| if normal[axis] > 0.0 { [p[u], p[v]] } else { [p[v], p[u]] };
+    coordinates.iter().map(|&p| pair(p - first)).collect()
+}
+
+/// Adds degenerate triangles until the pieces have exactly the polygon's edges. Ear clipping leaves out corners in the
+/// middle of straight sides, and gives up on polygons that cross themselves; what is missing is a set of closed walks.
+fn close(corners: &[u32], pieces: &mut Vec<[u32; 3]>) {
+    let mut edges: Vec<(u32, u32, i32)> = Vec::with_capacity(corners.len() + 3 * pieces.len());
+    let mut push = |a: u32, b: u32, sign: i32| edges.push(if a < b { (a, b, sign) } else { (b, a, -sign) });
+    for (&a, &b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        push(a, b, 1);
+    }
+    for &[a, b, c] in pieces.iter() {
+        push(a, b, -1);
+        push(b, c, -1);
+        push(c, a, -1);
+    }
+    edges.sort_unstable();
+    let mut missing: Vec<(u32, u32)> = Vec::new();
+    for uses in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let net: i32 = uses.iter().map(|u| u.2).sum();
+        let (a, b, _) = uses[0];
+        let edge = if net > 0 { (a, b) } else { (b, a) };
+        missing.extend(std::iter::repeat_n(edge, net.unsigned_abs() as usize));
+    }
+    let mut next_of: HashMap<u32, Vec<u32>> = HashMap::new();
+    for &(from, to) in &missing {
+        next_of.entry(from).or_default().push(to);
+    }
+    let mut step = |from: u32| next_of.get_mut(&from).and_then(Vec::pop);
+    // As many missing edges lead into each point as out of it, so every walk comes back to its start.
+    for &(start, _) in &missing {
+        let Some(mut at) = step(start) else { continue };
+        while let Some(next) = step(at) {
+            if next == start {
+                break;
+            }
+            pieces.push([start, at, next]);
+            at = next;
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Surfaces: what primitives are made of. A block is the intersection of six half-spaces, a cylinder that of a quadric
+//! and two half-spaces. A surface divides space into an inside and an outside; a ray crosses it at some parameters.
+//!
+//! Every tracer in this crate gets its numbers from here, from the same operations in the same order. That is why their
+//! answers can be compared bit for bit.
+
+mod crossings;
+mod plane;
+mod quadric;
+
+pub use crossings::{Crossings, Sides};
+pub use plane::Plane;
+pub use quadric::{Quadric, QuadricKind};
+
+use crate::geom::{Ray, Vec3};
+use crate::primitive::{Crossing, Mesh};
+use std::sync::Arc;
+
+/// Where a box lies with respect to a set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// No point of the box is in the set.
+    Outside,
+    /// Every point of the box is in the set.
+    Inside,
+    /// Some may be and some may not.
+    Crossing,
+}
+
+/// An axis-aligned box by its middle and half its edges, as classification wants it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellBox {
+    /// The middle.
+    pub center: Vec3,
+    /// Half the edge lengths.
+    pub half: Vec3,
+}
+
+/// A surface in scene space.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// A plane; its inside is a half-space.
+    Plane(Plane),
+    /// Ellipsoid, elliptic cylinder or elliptic double cone.
+    Quadric(Quadric),
+    /// The boundary of a polyhedron that is not convex. Its faces lie in planes that are surfaces too.
+    Mesh(Arc<Mesh>),
+}
+
+impl Surface {
+    /// Where the line of the ray crosses the surface, over all `t` from minus to plus infinity: appends the ascending
+    /// parameters and returns whether the line comes from inside. `all` is the catalogue that the surface belongs to.
+    pub fn crossings(&self, all: &[Surface], ray: &Ray, params: &mut Vec<f64>) -> bool {
+        let crossings = match self {
+            Self::Plane(plane) => plane.crossings(ray),
+            Self::Quadric(quadric) => quadric.crossings(ray),
+            Self::Mesh(mesh) => {
+                params.extend(mesh_toggles(mesh, all, ray).iter().map(|toggle| toggle.t));
+                return false;
+            }
+        };
+        params.extend_from_slice(crossings.params());
+        crossings.starts_inside()
+    }
+
+    /// Where the box lies. Conservative: `Outside` and `Inside` are said only where it is so, up to rounding, which is
+    /// for the caller's margin to cover.
+    pub fn classify(&self, cell: &CellBox) -> Side {
+        match self {
+            Self::Plane(plane) => plane.classify(cell),
+            Self::Quadric(quadric) => quadric.classify(cell),
+            Self::Mesh(mesh) => {
+                if mesh.touches_box(cell.center, cell.half) {
+                    Side::Crossing
+                } else if mesh.contains(cell.center) {
+                    Side::Inside
+                } else {
+                    Side::Outside
+                }
+            }
+        }
+    }
+
+    /// Which simple surface is seen where the line crosses this one (its own index is `own`) at `t`, into it (`entering`)
+    /// or out of it; and whether that surface's outward side is this one's inside.
+    pub fn facet_at(&self, own: u32, all: &[Surface], ray: &Ray, t: f64, entering: bool) -> (u32, bool) {
+        match self {
+            Self::Plane(_) | Self::Quadric(_) => (own, false),
+            Self::Mesh(mesh) => {
+                let toggles = mesh_toggles(mesh, all, ray);
+                let seen = toggles.iter().find(|toggle| toggle.t == t && toggle.entering == entering);
+                let face = mesh.surface(seen.map_or(0, |toggle| toggle.triangle));
+                (face.surface, face.flipped)
+            }
+        }
+    }
+
+    /// The outward normal at a point of a simple surface, not normalised; zero at a cone's apex, and for a mesh, whose
+    /// faces' planes are asked instead.
+    pub fn gradient(&self, p: Vec3) -> Vec3 {
+        match self {
+            Self::Plane(plane) => plane.normal,
+            Self::Quadric(quadric) => quadric.gradient(p),
+            Self::Mesh(_) => Vec3::ZERO,
+        }
+    }
+
+    /// Roughly the distance of `p` from a simple surface (first order), in scene units; infinite for a mesh.
+    pub fn distance(&self, p: Vec3) -> f64 {
+        match self {
+            Self::Plane(plane) => (plane.normal.dot(p) - plane.offset).abs(),
+            Self::Quadric(quadric) => quadric.distance(p),
+            Self::Mesh(_) => f64::INFINITY,
+        }
+    }
+}
+
+fn mesh_toggles(mesh: &Mesh, all: &[Surface], ray: &Ray) -> Vec<Crossing> {
+    let mut toggles = Vec::new();
+    let plane_t = |surface: u32| match &all[surface as usize] {
+        Surface::Plane(plane) => plane.crossings(ray).params().first().map_or(f64::NAN, |&t| t),
+        _ => f64::NAN,
+    };
+    mesh.toggles(ray, plane_t, &mut toggles);
+    for toggle in &mut toggles {
+        // Turns -0 into 0: equal parameters shall have equal bits.
+        toggle.t += 0.0;
+    }
+    toggles
+}

@@ -1,0 +1,124 @@
+//! Marching along a ray through the cells of an octree, and through what lies outside it.
+
+use super::roots::{Roots, hit_of};
+use super::tracer::Counters;
+use crate::compile::{Catalog, Constant, Program};
+use crate::geom::{Hit, Ray};
+use crate::octree::{Cell, Octree};
+use crate::traverse::{Step, TraversalKind, root_interval};
+use std::ops::ControlFlow;
+
+/// Why a march ended before its end.
+pub(crate) enum Stop<B> {
+    /// The visitor has what it wants.
+    Done(B),
+    /// The cells contradict each other: something changed where nothing is crossed. Never seen in tests; the ray is
+    /// traced canonically then, and counted.
+    Leak,
+}
+
+/// One ray on its way: whether it is inside is known from the first cell on and changes at crossings only.
+pub(crate) struct March<'a> {
+    pub catalog: &'a Catalog,
+    pub ray: &'a Ray,
+    pub roots: &'a mut Roots,
+    pub counters: &'a mut Counters,
+    inside: Option<bool>,
+}
+
+impl<'a> March<'a> {
+    pub fn new(catalog: &'a Catalog, ray: &'a Ray, roots: &'a mut Roots, counters: &'a mut Counters) -> Self {
+        roots.begin_ray();
+        Self { catalog, ray, roots, counters, inside: None }
+    }
+
+    /// Shows `on_hit` the crossings after `start` up to `end`, in order, until it breaks off.
+    pub fn along<B>(
+        &mut self,
+        program: &Program,
+        octree: Option<&Octree>,
+        traversal: TraversalKind,
+        (start, end): (f64, f64),
+        mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        let interval = octree.and_then(|octree| Some((octree, root_interval(octree, self.ray)?)));
+        let Some((octree, (root_in, root_out))) = interval else {
+            return self.constant(&program.outer, start, end, &mut on_hit);
+        };
+        let (t_in, t_out) = (root_in.max(start), root_out.min(end));
+        if t_in > t_out {
+            // The root lies behind the start, or beyond the end.
+            return self.constant(&program.outer, start, end, &mut on_hit);
+        }
+        if start < root_in {
+            self.constant(&program.outer, start, t_in, &mut on_hit)?;
+        }
+        traversal.walk(octree, self.ray, t_in, t_out, |Step { cell, t_in, t_out, .. }| {
+            self.counters.cells += 1;
+            match cell {
+                Cell::Outside => self.settled(false),
+                Cell::Inside => self.settled(true),
+                Cell::Leaf(words) => self.words(words, t_in, t_out, &mut on_hit),
+            }
+        })?;
+        if root_out < end { self.constant(&program.outer, t_out, end, &mut on_hit) } else { ControlFlow::Continue(()) }
+    }
+
+    fn constant<B>(
+        &mut self,
+        program: &Constant,
+        t_in: f64,
+        t_out: f64,
+        on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        match program {
+            Constant::Everywhere(inside) => self.settled(*inside),
+            Constant::Words(words) => self.words(words, t_in, t_out, on_hit),
+        }
+    }
+
+    /// A stretch that is all inside or all outside.
+    fn settled<B>(&mut self, inside: bool) -> ControlFlow<Stop<B>> {
+        match *self.inside.get_or_insert(inside) == inside {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(Stop::Leak),
+        }
+    }
+
+    /// A stretch with a program. Crossings exactly at either end count; one at the end of a stretch is not found again at
+    /// the start of the next, since the ray is on its other side then.
+    fn words<B>(
+        &mut self,
+        words: &[u32],
+        t_in: f64,
+        t_out: f64,
+        on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        self.roots.solve(self.catalog, words, self.ray);
+        self.counters.surface_tests += words.len() as u64;
+        let mut inside = match self.inside {
+            Some(inside) => inside,
+            None => self.roots.inside_after(words, t_in),
+        };
+        let mut from = t_in;
+        loop {
+            let t = self.roots.next(words, from, !inside);
+            if t > t_out || t == f64::INFINITY {
+                break;
+            }
+            let change = self.roots.change(words, t);
+            let (Some(word), true) = (change.word, change.after != inside) else {
+                return ControlFlow::Break(Stop::Leak);
+            };
+            inside = change.after;
+            self.inside = Some(inside);
+            let hit = hit_of(self.catalog, word, self.ray, t, inside);
+            if let ControlFlow::Break(done) = on_hit(hit) {
+                return ControlFlow::Break(Stop::Done(done));
+            }
+            from = t;
+        }
+        self.inside = Some(inside);
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,75 @@
+//! One ray explained.
+
+use super::SurfacePoint;
+use crate::geom::{Bounds, Hit, Ray, Spans};
+use std::fmt;
+
+/// A cell on a ray's way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VisitedCell {
+    /// Whose octree it belongs to.
+    pub body: usize,
+    /// Where the ray enters it.
+    pub t_in: f64,
+    /// Where the ray leaves it.
+    pub t_out: f64,
+    /// The cell.
+    pub bounds: Bounds,
+    /// What is left of the program in it, for people to read.
+    pub program: String,
+}
+
+/// Everything that happens to one ray.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayReport {
+    /// The ray.
+    pub ray: Ray,
+    /// The cells that it meets from `t = 0` on, in order.
+    pub cells: Vec<VisitedCell>,
+    /// The spans of its whole line.
+    pub spans: Spans,
+    /// The first hit from `t = 0` on, and what is there.
+    pub hit: Option<(Hit, SurfacePoint)>,
+}
+
+impl fmt::Display for RayReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [ox, oy, oz] = self.ray.origin.to_array();
+        let [dx, dy, dz] = self.ray.direction.to_array();
+        writeln!(f, "ray from {ox} {oy} {oz} along {dx} {dy} {dz}")?;
+        writeln!(f, "cells:")?;
+        for cell in &self.cells {
+            let size = cell.bounds.size().x;
+            let c = cell.bounds.center();
+            writeln!(
+                f,
+                "  t {:.6} to {:.6}: cell of size {size:.6} about {:.6} {:.6} {:.6}",
+                cell.t_in, cell.t_out, c.x, c.y, c.z
+            )?;
+            for line in cell.program.lines() {
+                writeln!(f, "    {line}")?;
+            }
+        }
+        writeln!(f, "spans:")?;
+        let end = |f: &mut fmt::Formatter<'_>, hit: &Option<Hit>, none: &str| match hit {
+            Some(hit) => write!(f, "{} (surface {}, leaf {})", hit.t, hit.surface, hit.leaf),
+            None => f.write_str(none),
+        };
+        for span in &self.spans {
+            f.write_str("  ")?;
+            end(f, &span.enter, "-inf")?;
+            f.write_str(" to ")?;
+            end(f, &span.exit, "inf")?;
+            writeln!(f)?;
+        }
+        match &self.hit {
+            None => writeln!(f, "no hit"),
+            Some((hit, point)) => {
+                let (p, n) = (point.position, point.normal);
+                writeln!(f, "hit at t {}: surface {}, leaf {}", hit.t, hit.surface, hit.leaf)?;
+                writeln!(f, "  point {} {} {}", p.x, p.y, p.z)?;
+                writeln!(f, "  normal {} {} {}", n.x, n.y, n.z)
+            }
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Where one ray crosses the surfaces of one program, and what follows: without lists of spans.
+//!
+//! As sets of parameters, insides are half-open. So "the first parameter from `t` on at which the program is inside" needs
+//! no sorting: for a literal it is looked up, for `Or` it is the least of the children's, for `And` the least fixpoint of
+//! asking the children in turn. The answer is one of the roots, bit for bit the one that combining span lists finds.
+
+use crate::compile::{Catalog, Word, node_end};
+use crate::geom::{Hit, Ray};
+use crate::surface::{Sides, Surface};
+
+/// The crossings of one ray with the literals of one program; scratch memory of a worker.
+#[derive(Debug, Default)]
+pub(crate) struct Roots {
+    /// For every word of the program; operators have an empty row.
+    rows: Vec<Row>,
+    params: Vec<f64>,
+    /// Meshes that this ray has met already, and where it crosses them: a mesh reaches through many cells.
+    meshes: Vec<(u32, Vec<f64>)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    start: u32,
+    len: u32,
+    starts_inside: bool,
+}
+
+/// How a program's value changes at one parameter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Change {
+    pub before: bool,
+    pub after: bool,
+    /// Where the value changes: the word of the literal that is seen to change it.
+    pub word: Option<u32>,
+}
+
+impl Roots {
+    /// Forgets what is known of the ray before.
+    pub fn begin_ray(&mut self) {
+        self.meshes.clear();
+    }
+
+    /// Crosses the ray, the same as since [`begin_ray`](Self::begin_ray), with every literal of the program.
+    pub fn solve(&mut self, catalog: &Catalog, words: &[u32], ray: &Ray) {
+        self.rows.clear();
+        self.params.clear();
+        for &word in words {
+            let start = self.params.len() as u32;
+            let mut starts_inside = false;
+            if let Word::Literal { index, negated } = Word::decode(word) {
+                let surface = catalog.literals[index as usize].surface;
+                starts_inside = negated ^ self.cross(catalog, surface, ray);
+            }
+            self.rows.push(Row { start, len: self.params.len() as u32 - start, starts_inside });
+        }
+    }
+
+    fn cross(&mut self, catalog: &Catalog, surface: u32, ray: &Ray) -> bool {
+        let shape = &catalog.surfaces[surface as usize];
+        if !matches!(shape, Surface::Mesh(_)) {
+            return shape.crossings(&catalog.surfaces, ray, &mut self.params);
+        }
+        let known = self.meshes.iter().position(|&(mesh, _)| mesh == surface).unwrap_or_else(|| {
+            let mut params = Vec::new();
+            shape.crossings(&catalog.surfaces, ray, &mut params);
+            self.meshes.push((surface, params));
+            self.meshes.len() - 1
+        });
+        self.params.extend_from_slice(&self.meshes[known].1);
+        // Meshes are bounded: every line comes from outside.
+        false
+    }
+
+    fn sides(&self, at: usize) -> Sides<'_> {
+        let row = self.rows[at];
+        let start = row.start as usize;
+        Sides { starts_inside: row.starts_inside, params: &self.params[start..start + row.len as usize] }
+    }
+
+    /// The first parameter `>= t` from which on the program is inside (`wanted`) or outside; infinite where there is none.
+    pub fn next(&self, words: &[u32], t: f64, wanted: bool) -> f64 {
+        self.next_at(words, 0, t, wanted)
+    }
+
+    fn next_at(&self, words: &[u32], at: usize, t: f64, wanted: bool) -> f64 {
+        let (len, is_and) = match Word::decode(words[at]) {
+            Word::Literal { .. } => return self.sides(at).next(t, wanted),
+            Word::And { len } => (len as usize, true),
+            Word::Or { len } => (len as usize, false),
+        };
+        let end = at + 1 + len;
+        if is_and != wanted {
+            // One child is enough.
+            let mut least = f64::INFINITY;
+            let mut child = at + 1;
+            while child < end && least > t {
+                least = least.min(self.next_at(words, child, t, wanted));
+                child = node_end(words, child);
+            }
+            return least;
+        }
+        // All children must agree.
+        let mut t = t;
+        loop {
+            let start = t;
+            let mut child = at + 1;
+            while child < end {
+                t = self.next_at(words, child, t, wanted);
+                if t == f64::INFINITY {
+                    return t;
+                }
+                child = node_end(words, child);
+            }
+            if t == start {
+                return t;
+            }
+        }
+    }
+
+    /// The program's value from `t` on.
+    pub fn inside_after(&self, words: &[u32], t: f64) -> bool {
+        self.change(words, t).after
+    }
+
+    /// How the program's value changes at `t`, and which literal is seen to change it: from the root down, the first child
+    /// in source order that changes as its parent does (compare [`combine`](super::combine::combine)).
+    pub fn change(&self, words: &[u32], t: f64) -> Change {
+        self.change_at(words, 0, t)
+    }
+
+    fn change_at(&self, words: &[u32], at: usize, t: f64) -> Change {
+        let (len, is_and) = match Word::decode(words[at]) {
+            Word::Literal { .. } => {
+                let sides = self.sides(at);
+                return Change { before: sides.before(t), after: sides.after(t), word: Some(words[at]) };
+            }
+            Word::And { len } => (len as usize, true),
+            Word::Or { len } => (len as usize, false),
+        };
+        let end = at + 1 + len;
+        let mut sum = Change { before: is_and, after: is_and, word: None };
+        // The first child that starts being inside, and the first that ceases to be.
+        let (mut first_in, mut first_out) = (None, None);
+        let mut child = at + 1;
+        while child < end {
+            let change = self.change_at(words, child, t);
+            if is_and {
+                sum.before &= change.before;
+                sum.after &= change.after;
+            } else {
+                sum.before |= change.before;
+                sum.after |= change.after;
+            }
+            match (change.before, change.after) {
+                (false, true) => first_in = first_in.or(change.word),
+                (true, false) => first_out = first_out.or(change.word),
+                _ => {}
+            }
+            child = node_end(words, child);
+        }
+        sum.word = match (sum.before, sum.after) {
+            (false, true) => first_in,
+            (true, false) => first_out,
+            _ => None,
+        };
+        sum
+    }
+}
+
+/// The hit for a change at `t` that the literal `word` is seen to make.
+pub(crate) fn hit_of(catalog: &Catalog, word: u32, ray: &Ray, t: f64, entering: bool) -> Hit {
+    let Word::Literal { index, negated } = Word::decode(word) else {
+        unreachable!("only literals are seen to change a program");
+    };
+    let literal = catalog.literals[index as usize];
+    let (surface, turned) = catalog.surfaces[literal.surface as usize].facet_at(
+        literal.surface,
+        &catalog.surfaces,
+        ray,
+        t,
+        entering != negated,
+    );
+    Hit { t, leaf: literal.leaf, surface, entering, flipped: negated != turned }
+}

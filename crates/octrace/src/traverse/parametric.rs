@@ -1,0 +1,83 @@
+//! Top down, front to back: a branch's interval is cut where the ray passes the branch's three middle planes.
+//!
+//! All that is ever compared are parameters, and a child's interval ends with the very number with which the next one's
+//! begins. So the intervals tile the ray by construction, whatever rounding does to the planes.
+
+use super::{Step, is_parallel};
+use crate::geom::{Ray, Vec3};
+use crate::octree::{Cell, Kind, Octree};
+use std::ops::ControlFlow;
+
+pub(super) fn walk<B>(
+    octree: &Octree,
+    ray: &Ray,
+    t_in: f64,
+    t_out: f64,
+    mut visit: impl FnMut(Step<'_>) -> ControlFlow<B>,
+) -> ControlFlow<B> {
+    // At most three children more than are taken off wait at each level.
+    let mut stack = Vec::with_capacity(64);
+    stack.push((octree.root, octree.center, octree.half, t_in, t_out));
+    while let Some((word, center, half, t_in, t_out)) = stack.pop() {
+        let cell = match word.kind() {
+            Kind::Outside => Cell::Outside,
+            Kind::Inside => Cell::Inside,
+            Kind::Leaf(program) => Cell::Leaf(octree.program(program)),
+            Kind::Branch(index) => {
+                let children = &octree.branches[index as usize];
+                let child_half = half / 2.0;
+                let (cuts, count) = cuts(ray, center, t_in, t_out);
+                for i in (0..=count).rev() {
+                    let start = if i == 0 { t_in } else { cuts[i - 1] };
+                    let end = if i == count { t_out } else { cuts[i] };
+                    let octant = octant_at(ray, center, start);
+                    let child_center = Octree::child_center(center, child_half, octant);
+                    stack.push((children[octant], child_center, child_half, start, end));
+                }
+                continue;
+            }
+        };
+        visit(Step { cell, t_in, t_out, center, half })?;
+    }
+    ControlFlow::Continue(())
+}
+
+/// The different parameters strictly between `t_in` and `t_out` at which the ray passes a middle plane, ascending.
+fn cuts(ray: &Ray, center: Vec3, t_in: f64, t_out: f64) -> ([f64; 3], usize) {
+    let mut cuts = [0.0; 3];
+    let mut count = 0;
+    for axis in 0..3 {
+        let t = middle(ray, center, axis);
+        if !(t_in < t && t < t_out) {
+            continue;
+        }
+        let at = cuts[..count].iter().position(|&c| c >= t).unwrap_or(count);
+        if at < count && cuts[at] == t {
+            continue;
+        }
+        cuts.copy_within(at..count, at + 1);
+        cuts[at] = t;
+        count += 1;
+    }
+    (cuts, count)
+}
+
+/// Where the ray passes the middle plane; infinite, with the sign that puts it on the right side, where it never does.
+#[inline]
+fn middle(ray: &Ray, center: Vec3, axis: usize) -> f64 {
+    let (o, d) = (ray.origin[axis], ray.direction[axis]);
+    if is_parallel(d) {
+        if o < center[axis] { f64::INFINITY } else { f64::NEG_INFINITY }
+    } else {
+        (center[axis] - o) / d
+    }
+}
+
+/// The child in which the ray is from `t` on.
+fn octant_at(ray: &Ray, center: Vec3, t: f64) -> usize {
+    (0..3).fold(0, |octant, axis| {
+        let passed = t >= middle(ray, center, axis);
+        let downwards = ray.direction[axis] < 0.0 && !is_parallel(ray.direction[axis]);
+        octant | usize::from(passed != downwards) << axis
+    })
+}

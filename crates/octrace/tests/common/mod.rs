@@ -1,0 +1,77 @@
+//! Random solids and rays that love coincidence: small integers, shared planes, repeated values.
+#![allow(dead_code, reason = "each test uses its share")]
+
+use octrace::{Ray, Solid, Vec3};
+use proptest::prelude::*;
+
+/// A number of a coarse lattice.
+pub fn lattice() -> impl Strategy<Value = f64> {
+    (-4i32..=4).prop_map(|i| f64::from(i) * 0.5)
+}
+
+pub fn lattice_point() -> impl Strategy<Value = Vec3> {
+    (lattice(), lattice(), lattice()).prop_map(|(x, y, z)| Vec3::new(x, y, z))
+}
+
+fn size() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.5), Just(1.0), Just(1.5), Just(2.0)]
+}
+
+fn angle() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => Just(0.0), 2 => Just(90.0), 1 => Just(180.0), 1 => Just(45.0), 1 => Just(30.0), 1 => Just(17.0)]
+}
+
+/// A primitive, placed on the lattice.
+pub fn lattice_primitive() -> impl Strategy<Value = Solid> {
+    let shape = prop_oneof![
+        4 => Just(Solid::block()),
+        2 => Just(Solid::sphere()),
+        3 => Just(Solid::cylinder()),
+        1 => Just(Solid::half_space()),
+        1 => prop_oneof![Just(0.0), Just(0.5)].prop_map(|top| Solid::primitive(octrace::Primitive::Cone { top })),
+    ];
+    let scale = prop_oneof![
+        2 => size().prop_map(Vec3::splat),
+        1 => (size(), size(), size()).prop_map(|(x, y, z)| Vec3::new(x, y, z)),
+        1 => (size(), size(), size()).prop_map(|(x, y, z)| Vec3::new(-x, y, z)),
+    ];
+    (shape, scale, (angle(), angle(), angle()), lattice_point())
+        .prop_map(|(shape, scale, (a, b, c), at)| shape.scale(scale).rotate([a, b, c]).translate(at))
+}
+
+/// A CSG tree over such primitives.
+pub fn lattice_solid() -> impl Strategy<Value = Solid> {
+    lattice_primitive().prop_recursive(4, 24, 4, |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 2..4).prop_map(Solid::union),
+            prop::collection::vec(inner.clone(), 2..4).prop_map(Solid::intersection),
+            prop::collection::vec(inner.clone(), 2..4).prop_map(Solid::difference),
+            inner.clone().prop_map(|a| a.clone() - a),
+            (inner.clone(), lattice_point()).prop_map(|(a, by)| a.clone() + a.translate(by)),
+            inner.prop_map(|a| a.rotate([0.0, 0.0, 90.0])),
+        ]
+    })
+}
+
+/// A ray that is likely to run along edges and faces, through corners, or to start on a surface.
+pub fn lattice_ray() -> impl Strategy<Value = Ray> {
+    ray_from(prop_oneof![Just(0.0), Just(1.0), Just(7.0), Just(1000.0)])
+}
+
+/// The same, never from far away.
+pub fn near_lattice_ray() -> impl Strategy<Value = Ray> {
+    ray_from(prop_oneof![Just(0.0), Just(1.0), Just(7.0)])
+}
+
+fn ray_from(back: impl Strategy<Value = f64>) -> impl Strategy<Value = Ray> {
+    let direction = prop_oneof![
+        2 => prop_oneof![Just(Vec3::X), Just(Vec3::Y), Just(-Vec3::Z), Just(-Vec3::X), Just(Vec3::Z)],
+        2 => lattice_point(),
+        1 => (-1.0..1.0, -1.0..1.0, -1.0..1.0).prop_map(|(x, y, z)| Vec3::new(x, y, z)),
+    ];
+    (lattice_point(), direction.prop_filter("a direction", |d| *d != Vec3::ZERO), back, -0.25..0.25, any::<bool>())
+        .prop_map(|(through, direction, back, off, generic)| {
+            let nudge = if generic { Vec3::new(off, off * 0.7, -off * 0.3) } else { Vec3::ZERO };
+            Ray::new(through + nudge - direction * back, direction)
+        })
+}

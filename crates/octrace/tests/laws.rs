@@ -1,0 +1,114 @@
+//! The laws that define the project.
+
+mod common;
+
+use common::{lattice_point, lattice_ray, lattice_solid, near_lattice_ray};
+use octrace::exec::Exec;
+use octrace::octree::BuildOptions;
+use octrace::trace::Scratch;
+use octrace::traverse::TraversalKind;
+use octrace::{Accel, Ray, Solid, Tracer, TracerOptions};
+use proptest::prelude::*;
+
+fn tracer(solid: &Solid, options: &TracerOptions) -> Tracer {
+    Tracer::build(solid, options, &Exec::with_threads(1)).expect("nobody cancels")
+}
+
+fn canonical(solid: &Solid) -> Tracer {
+    tracer(solid, &TracerOptions { accel: Accel::None, ..TracerOptions::default() })
+}
+
+fn octree(solid: &Solid, leaf_surfaces: usize, depth: u32, traversal: TraversalKind) -> Tracer {
+    let octree = BuildOptions { leaf_surfaces, depth: Some(depth) };
+    tracer(solid, &TracerOptions { octree, traversal, ..TracerOptions::default() })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
+
+    /// The octree is an accelerator: it must never be visible.
+    #[test]
+    fn every_traversal_sees_what_the_canonical_tracer_sees(
+        solid in lattice_solid(),
+        rays in prop::collection::vec(lattice_ray(), 20),
+        leaf_surfaces in 0usize..5,
+        depth in 0u32..7,
+    ) {
+        let expected = canonical(&solid);
+        for traversal in TraversalKind::ALL {
+            let tested = octree(&solid, leaf_surfaces, depth, traversal);
+            let mut scratch = Scratch::default();
+            for ray in &rays {
+                prop_assert_eq!(tested.spans_with(ray, &mut scratch), expected.spans(ray), "spans, {}", traversal);
+                let hit = tested.first_hit_within(ray, f64::INFINITY, &mut scratch);
+                prop_assert_eq!(hit, expected.first_hit(ray), "first hit, {}", traversal);
+            }
+            prop_assert_eq!(scratch.counters.leaks, 0);
+        }
+    }
+
+    /// Spans are sorted, disjoint, never touching, never empty.
+    #[test]
+    fn spans_are_in_order(solid in lattice_solid(), ray in lattice_ray()) {
+        let spans = canonical(&solid).spans(&ray);
+        for span in &spans {
+            prop_assert!(span.enter_t() < span.exit_t());
+            prop_assert!(span.enter.is_none_or(|hit| hit.entering) && span.exit.is_none_or(|hit| !hit.entering));
+        }
+        for pair in spans.windows(2) {
+            prop_assert!(pair[0].exit_t() < pair[1].enter_t());
+        }
+    }
+
+    /// `A ∪ A = A`, `A ∩ A = A`, `A − A = ∅`, and De Morgan's laws.
+    #[test]
+    fn boolean_algebra_holds(a in lattice_solid(), b in lattice_solid(), ray in near_lattice_ray()) {
+        let params = |solid: Solid| -> Vec<(f64, f64)> {
+            canonical(&solid).spans(&ray).iter().map(|s| (s.enter_t(), s.exit_t())).collect()
+        };
+        let alone = params(a.clone());
+        prop_assert_eq!(params(a.clone() + a.clone()), alone.clone());
+        prop_assert_eq!(params(a.clone() & a.clone()), alone);
+        prop_assert_eq!(params(a.clone() - a.clone()), vec![]);
+        let everything = Solid::half_space() + Solid::half_space().scale([1.0, 1.0, -1.0]);
+        let not = |s: Solid| everything.clone() - s;
+        prop_assert_eq!(params(not(a.clone() + b.clone())), params(not(a.clone()) & not(b.clone())));
+        prop_assert_eq!(params(not(a.clone() & b.clone())), params(not(a) + not(b)));
+    }
+
+    /// Points are inside exactly where their rays say so.
+    #[test]
+    fn points_agree_with_spans(solid in lattice_solid(), ray in lattice_ray(), at in lattice_point()) {
+        let tested = octree(&solid, 2, 5, TraversalKind::default());
+        for span in tested.spans(&ray) {
+            let (enter, exit) = (span.enter_t().max(-1e3), span.exit_t().min(1e3));
+            if exit - enter > 1e-6 {
+                prop_assert!(tested.contains(ray.at((enter + exit) / 2.0)));
+            }
+        }
+        prop_assert_eq!(tested.contains(at), canonical(&solid).contains(at));
+    }
+}
+
+/// The example of the design: a drilled block whose hole ends in both faces.
+#[test]
+fn hits_are_exact() {
+    let hole = Solid::cylinder().scale([0.25, 0.25, 1.0]).translate([0.5, 0.5, 0.0]);
+    let tracer = octree(&(Solid::block() - hole), 2, 6, TraversalKind::default());
+    let corner = tracer.first_hit(&Ray::new([0.125, 0.125, -4.0], [0.0, 0.0, 1.0]));
+    assert_eq!(corner.expect("the corner is solid").t, 4.0);
+    assert_eq!(tracer.first_hit(&Ray::new([0.5, 0.5, -4.0], [0.0, 0.0, 1.0])), None);
+}
+
+/// Operators nested tens of thousands deep neither overflow a small stack nor change the answer.
+#[test]
+fn deep_nesting_is_no_problem() {
+    let solid = (0..20_000).fold(Solid::block(), |solid, i| match i % 2 {
+        0 => solid - Solid::sphere().translate([9.0, 0.0, 0.0]),
+        _ => solid + Solid::block().translate([0.0, 0.0, -4.0]),
+    });
+    let ray = Ray::new([0.5, 0.5, 9.0], [0.0, 0.0, -1.0]);
+    let expected = canonical(&solid).spans(&ray);
+    assert_eq!(expected.len(), 2);
+    assert_eq!(octree(&solid, 2, 4, TraversalKind::default()).spans(&ray), expected);
+}
