@@ -42,8 +42,9 @@ impl Look {
             (Some((rgb, own_alpha)), alpha) => Color { rgb, alpha: alpha.unwrap_or(own_alpha) },
             (None, Some(alpha)) => Color { rgb: None, alpha },
         };
-        if self.color.is_none_or(|outer| outer.rgb.is_none()) {
-            let alpha = if inner.alpha.is_nan() { 1.0 } else { inner.alpha.clamp(0.0, 1.0) };
+        let alpha = if inner.alpha.is_nan() { 1.0 } else { inner.alpha.clamp(0.0, 1.0) };
+        let says_something = inner.rgb.is_some() || alpha < 1.0;
+        if says_something && self.color.is_none_or(|outer| outer.rgb.is_none()) {
             self.color = Some(Color { alpha, ..inner });
         }
         self
@@ -62,7 +63,7 @@ impl Look {
             return self;
         };
         let mut material = make(own_color);
-        let fields: [(&str, &mut f64, f64, f64); 7] = [
+        let fields: [(&str, &mut f64, f64, f64); 8] = [
             ("ka", &mut material.ka, 0.0, f64::MAX),
             ("kd", &mut material.kd, 0.0, f64::MAX),
             ("ks", &mut material.ks, 0.0, f64::MAX),
@@ -70,6 +71,7 @@ impl Look {
             ("kr", &mut material.kr, 0.0, 1.0),
             ("kt", &mut material.kt, 0.0, 1.0),
             ("ior", &mut material.ior, f64::MIN_POSITIVE, f64::MAX),
+            ("tint", &mut material.tint, 0.0, 1.0),
         ];
         for (name, field, least, most) in fields {
             let Some((value, at)) = args.number(name) else { continue };
@@ -93,9 +95,12 @@ impl Look {
         let mut material = self.material.unwrap_or_default();
         if let Some(Color { rgb, alpha }) = self.color {
             material.color = rgb.unwrap_or(material.color);
-            // What is not opaque lets the rest of the light pass.
+            // What is not opaque lets the rest of the light pass, the less filtered the clearer it is.
             material.ka *= alpha;
             material.kd *= alpha;
+            if material.kt == 0.0 {
+                material.tint *= alpha;
+            }
             material.kt = 1.0 - alpha * (1.0 - material.kt);
         }
         material
@@ -170,14 +175,14 @@ pub(super) struct Parts {
     pub list: Vec<Part>,
     /// Where each was asked for first.
     pub places: Vec<SourceRange>,
-    index: HashMap<[u64; 10], PartId>,
+    index: HashMap<[u64; 11], PartId>,
 }
 
 impl Parts {
     /// The part made of this material.
     pub fn of(&mut self, material: Material, at: SourceRange) -> PartId {
-        let Material { color: Rgb { r, g, b }, ka, kd, ks, shininess, kr, kt, ior } = material;
-        let key = [r, g, b, ka, kd, ks, shininess, kr, kt, ior].map(f64::to_bits);
+        let Material { color: Rgb { r, g, b }, ka, kd, ks, shininess, kr, kt, ior, tint } = material;
+        let key = [r, g, b, ka, kd, ks, shininess, kr, kt, ior, tint].map(f64::to_bits);
         *self.index.entry(key).or_insert_with(|| {
             self.list.push(Part { material });
             self.places.push(at);
