@@ -34,6 +34,7 @@ fn colours_are_srgb_in_files_and_linear_in_scenes() {
     let gray = material("color([0.5, 0.5, 0.5]) block();");
     assert_eq!(gray.color, Rgb::from_srgb([0.5; 3]));
     assert_eq!(scene("block();").parts, []);
+    assert_eq!(scene("color([-1, -1, -1, -1]) block();").parts, [], "OpenSCAD's way to say nothing");
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The arguments of a node, matched with what it takes.
 
-use super::language::{Type, Word, nearest};
+use super::language::{Word, nearest};
 use super::report::Report;
+use super::types::Type;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Arg, Ast, NodeId, Rows, View, element_range};
 use crate::{Dialect, SourceRange};

@@ -42,7 +42,8 @@ impl Look {
             (Some((rgb, own_alpha)), alpha) => Color { rgb, alpha: alpha.unwrap_or(own_alpha) },
             (None, Some(alpha)) => Color { rgb: None, alpha },
         };
-        let alpha = if inner.alpha.is_nan() { 1.0 } else { inner.alpha.clamp(0.0, 1.0) };
+        // OpenSCAD writes -1 for an alpha that was not given.
+        let alpha = if inner.alpha >= 0.0 { inner.alpha.min(1.0) } else { 1.0 };
         let says_something = inner.rgb.is_some() || alpha < 1.0;
         if says_something && self.color.is_none_or(|outer| outer.rgb.is_none()) {
             self.color = Some(Color { alpha, ..inner });

@@ -9,6 +9,7 @@ mod report;
 mod settings;
 mod shapes;
 mod transforms;
+mod types;
 mod walk;
 
 use crate::diagnostic::{Collector, Diagnostic};
