@@ -4,7 +4,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const LAYERS: [&str; 12] = [
-    "geom", "exec", "primitive", "surface", "model", "compile", "octree", "traverse", "trace", "shade", "film", "query",
+    "geom",
+    "exec",
+    "primitive",
+    "surface",
+    "model",
+    "compile",
+    "octree",
+    "traverse",
+    "trace",
+    "shade",
+    "film",
+    "query",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -147,6 +147,7 @@ pub(super) const WORDS: &[Word] = &[
             ("kr", Number),
             ("kt", Number),
             ("ior", Number),
+            ("tint", Number),
         ],
     ),
     word(

@@ -62,7 +62,7 @@ impl Look {
             return self;
         };
         let mut material = make(own_color);
-        let fields: [(&str, &mut f64, f64, f64); 7] = [
+        let fields: [(&str, &mut f64, f64, f64); 8] = [
             ("ka", &mut material.ka, 0.0, f64::MAX),
             ("kd", &mut material.kd, 0.0, f64::MAX),
             ("ks", &mut material.ks, 0.0, f64::MAX),
@@ -70,6 +70,7 @@ impl Look {
             ("kr", &mut material.kr, 0.0, 1.0),
             ("kt", &mut material.kt, 0.0, 1.0),
             ("ior", &mut material.ior, f64::MIN_POSITIVE, f64::MAX),
+            ("tint", &mut material.tint, 0.0, 1.0),
         ];
         for (name, field, least, most) in fields {
             let Some((value, at)) = args.number(name) else { continue };
@@ -96,6 +97,10 @@ impl Look {
             // What is not opaque lets the rest of the light pass.
             material.ka *= alpha;
             material.kd *= alpha;
+            if alpha < 1.0 && !material.is_transparent() {
+                // As pictures are laid over each other: what is behind keeps its colour.
+                material.tint = 0.0;
+            }
             material.kt = 1.0 - alpha * (1.0 - material.kt);
         }
         material
@@ -170,14 +175,14 @@ pub(super) struct Parts {
     pub list: Vec<Part>,
     /// Where each was asked for first.
     pub places: Vec<SourceRange>,
-    index: HashMap<[u64; 10], PartId>,
+    index: HashMap<[u64; 11], PartId>,
 }
 
 impl Parts {
     /// The part made of this material.
     pub fn of(&mut self, material: Material, at: SourceRange) -> PartId {
-        let Material { color: Rgb { r, g, b }, ka, kd, ks, shininess, kr, kt, ior } = material;
-        let key = [r, g, b, ka, kd, ks, shininess, kr, kt, ior].map(f64::to_bits);
+        let Material { color: Rgb { r, g, b }, ka, kd, ks, shininess, kr, kt, ior, tint } = material;
+        let key = [r, g, b, ka, kd, ks, shininess, kr, kt, ior, tint].map(f64::to_bits);
         *self.index.entry(key).or_insert_with(|| {
             self.list.push(Part { material });
             self.places.push(at);
