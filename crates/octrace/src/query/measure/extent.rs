@@ -18,8 +18,11 @@ const SHORTEST_CHORD: f64 = 1e-9;
 const NET: u32 = 32;
 /// After so many undecided cells a proof is given up.
 const MAX_CELLS: usize = 4096;
-/// From so many undecided cells the search goes uphill once more.
-const MAX_HILLS: usize = 256;
+/// From undecided cells the search goes uphill once more, until so many attempts in a row were in vain.
+const PATIENCE: usize = 40;
+/// Directions to try before narrowing one down, and by how many golden sections.
+const BEARINGS: u32 = 16;
+const NARROWINGS: u32 = 14;
 
 /// How far a solid reaches.
 pub(super) struct Extent {
@@ -163,30 +166,68 @@ impl<'a, B: Body> Climb<'a, B> {
         Some(height)
     }
 
-    /// Goes uphill from a place, by steps that shrink where no neighbour is higher. The neighbours tried turn from one
-    /// round to the next, so that a ridge does not hold the search up for long.
-    fn follow(&mut self, mut place: Vec3, mut step: Vec3) {
-        let Some(mut height) = self.try_at(place) else { return };
-        let [u, v] = self.across();
-        let mut turn_deg = 0.0;
-        while step.max_abs() > 0.01 * self.resolution {
-            let (from, before) = (place, height);
-            for neighbour in 0..8 {
-                let (s, c) = sin_cos_deg(turn_deg + 45.0 * f64::from(neighbour));
-                let mut next = from;
-                next[u] += step[u] * c;
-                next[v] += step[v] * s;
-                match self.try_at(next) {
-                    Some(found) if found > height => (height, place) = (found, next),
-                    _ => {}
-                }
+    /// Goes uphill from a place, by steps to the highest point of an ellipse around it: longer steps while that leads up,
+    /// shorter ones where it does not. Says whether that beat the greatest height so far.
+    fn follow(&mut self, mut place: Vec3, mut step: Vec3) -> bool {
+        let before = self.reached();
+        let Some(mut height) = self.try_at(place) else { return false };
+        while step.max_abs() > 0.1 * self.resolution {
+            let (found, next) = self.highest_around(place, step);
+            let gain = found - height;
+            if gain > 0.0 {
+                (height, place) = (found, next);
             }
-            turn_deg += 137.5;
             // Creeping along counts as standing still.
-            if height - before <= self.resolution {
-                step = step * 0.6;
+            step = step * if gain > self.resolution { 1.5 } else { 0.4 };
+        }
+        self.reached() > before + self.resolution
+    }
+
+    /// The highest point of an ellipse around a place, and how high it is. It is narrowed down to a small fraction of a
+    /// degree: the way up along the edge of a cliff may be that narrow.
+    fn highest_around(&mut self, center: Vec3, half_axes: Vec3) -> (f64, Vec3) {
+        let [u, v] = self.across();
+        let mut height_at = |angle_deg: f64| {
+            let (s, c) = sin_cos_deg(angle_deg);
+            let mut place = center;
+            place[u] += half_axes[u] * c;
+            place[v] += half_axes[v] * s;
+            (self.try_at(place).unwrap_or(f64::NEG_INFINITY), place)
+        };
+        let higher = |a: (f64, Vec3), b: (f64, Vec3)| if b.0 > a.0 { b } else { a };
+        let pitch_deg = 360.0 / f64::from(BEARINGS);
+        let mut best = height_at(0.0);
+        let mut bearing_deg = 0.0;
+        for i in 1..BEARINGS {
+            let candidate = height_at(f64::from(i) * pitch_deg);
+            if candidate.0 > best.0 {
+                (best, bearing_deg) = (candidate, f64::from(i) * pitch_deg);
             }
         }
+        if best.0 == f64::NEG_INFINITY {
+            return best;
+        }
+        // Golden section; a cliff within the bracket is no obstacle.
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let (mut low, mut high) = (bearing_deg - pitch_deg, bearing_deg + pitch_deg);
+        let inner = |low: f64, high: f64| (high - golden * (high - low), low + golden * (high - low));
+        let (mut left, mut right) = inner(low, high);
+        let (mut at_left, mut at_right) = (height_at(left), height_at(right));
+        for _ in 0..NARROWINGS {
+            best = higher(higher(best, at_left), at_right);
+            if at_left.0 > at_right.0 {
+                high = right;
+                (right, at_right) = (left, at_left);
+                left = inner(low, high).0;
+                at_left = height_at(left);
+            } else {
+                low = left;
+                (left, at_left) = (right, at_right);
+                right = inner(low, high).1;
+                at_right = height_at(right);
+            }
+        }
+        higher(higher(best, at_left), at_right)
     }
 
     /// Shows that nothing is higher than what was reached, by more than the resolution, or finds it. Answers with a
@@ -194,7 +235,7 @@ impl<'a, B: Body> Climb<'a, B> {
     fn prove(&mut self, exec: &Exec) -> Result<f64, Cancelled> {
         let mut limit = f64::NEG_INFINITY;
         let mut undecided = VecDeque::from([self.room]);
-        let mut cells = 0;
+        let (mut cells, mut in_vain) = (0, 0);
         while let Some(cell) = undecided.pop_front() {
             let cell = self.above_reached(cell);
             if cell.is_empty() || self.body.is_outside(&cell) {
@@ -208,8 +249,8 @@ impl<'a, B: Body> Climb<'a, B> {
                 continue;
             }
             // There may be many hills, each a little higher than the one before.
-            if cells <= MAX_HILLS {
-                self.follow(cell.center(), size * 0.25);
+            if in_vain < PATIENCE {
+                in_vain = if self.follow(cell.center(), size * 0.25) { 0 } else { in_vain + 1 };
             } else {
                 self.try_at(cell.center());
             }
