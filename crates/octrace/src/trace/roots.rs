@@ -49,8 +49,7 @@ impl Roots {
             let mut starts_inside = false;
             if let Word::Literal { index, negated } = Word::decode(word) {
                 let surface = catalog.literals[index as usize].surface;
-                starts_inside =
-                    negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut self.params);
+                starts_inside = negated ^ self.cross(catalog, surface, ray);
             }
             self.rows.push(Row { start, len: self.params.len() as u32 - start, starts_inside });
         }
