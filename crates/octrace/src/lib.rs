@@ -8,6 +8,7 @@ pub mod model;
 pub mod num;
 pub mod octree;
 pub mod primitive;
+pub mod query;
 pub mod shade;
 pub mod surface;
 pub mod trace;

@@ -99,3 +99,16 @@ fn hits_are_exact() {
     assert_eq!(corner.expect("the corner is solid").t, 4.0);
     assert_eq!(tracer.first_hit(&Ray::new([0.5, 0.5, -4.0], [0.0, 0.0, 1.0])), None);
 }
+
+/// Operators nested tens of thousands deep neither overflow a small stack nor change the answer.
+#[test]
+fn deep_nesting_is_no_problem() {
+    let solid = (0..20_000).fold(Solid::block(), |solid, i| match i % 2 {
+        0 => solid - Solid::sphere().translate([9.0, 0.0, 0.0]),
+        _ => solid + Solid::block().translate([0.0, 0.0, -4.0]),
+    });
+    let ray = Ray::new([0.5, 0.5, 9.0], [0.0, 0.0, -1.0]);
+    let expected = canonical(&solid).spans(&ray);
+    assert_eq!(expected.len(), 2);
+    assert_eq!(octree(&solid, 2, 4, TraversalKind::default()).spans(&ray), expected);
+}

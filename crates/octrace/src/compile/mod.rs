@@ -55,6 +55,16 @@ pub struct Program {
     pub bounds: Bounds,
 }
 
+impl Program {
+    /// How many operators lie above its deepest literal.
+    pub fn nesting(&self) -> usize {
+        match &self.whole {
+            Constant::Everywhere(_) => 0,
+            Constant::Words(words) => nesting(words),
+        }
+    }
+}
+
 /// A program that may have been simplified away.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Constant {

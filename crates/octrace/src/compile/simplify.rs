@@ -5,7 +5,8 @@
 //! down counts as a constant for what comes later: `P ∩ (¬P ∪ Q) = P ∩ Q`. Only *later* nodes may profit: the visible one
 //! of several surfaces crossed at once is the first in source order (see `trace::combine`), and so it stays the same.
 
-use super::{Catalog, Word, node_end};
+use super::{Catalog, Word, nesting, node_end};
+use crate::exec::with_stack_for;
 use crate::surface::{CellBox, Side};
 
 /// What is left of a program in a box.
@@ -41,8 +42,10 @@ impl Simplifier {
     /// which may not alias `words`.
     pub fn simplify(&mut self, catalog: &Catalog, words: &[u32], cell: &CellBox, out: &mut Vec<u32>) -> Simplified {
         self.known.clear();
+        // Every level takes two words at least.
+        let levels = if words.len() <= 128 { 0 } else { nesting(words) };
         let mut run = Run { catalog, cell, words, out, track: words.len() <= TRACKED_WORDS, simplifier: self };
-        match run.node(0) {
+        match with_stack_for(levels, || run.node(0)) {
             Node::False => Simplified::Constant(false),
             Node::True => Simplified::Constant(true),
             Node::Kept => Simplified::Reduced,

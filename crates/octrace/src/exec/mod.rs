@@ -57,6 +57,19 @@ impl CancelToken {
 #[error("interrupted")]
 pub struct Cancelled;
 
+/// Runs `work`, which recurses up to `levels` deep, where the stack has room for it.
+pub(crate) fn with_stack_for<T>(levels: usize, work: impl FnOnce() -> T) -> T {
+    /// What one level of any recursion over programs takes at most, in unoptimised code.
+    const LEVEL_BYTES: usize = 2 << 10;
+    /// Any thread has this much.
+    const SHALLOW: usize = 64;
+    if levels <= SHALLOW {
+        return work();
+    }
+    let bytes = levels * LEVEL_BYTES;
+    stacker::maybe_grow(bytes, 2 * bytes, work)
+}
+
 /// Threads, interruption and progress of one piece of work.
 #[derive(Clone)]
 pub struct Exec {
@@ -76,9 +89,6 @@ impl Default for Exec {
 }
 
 impl Exec {
-    /// Stack of a worker: deep CSG trees are walked recursively, some hundred bytes a level.
-    const STACK_BYTES: usize = 64 << 20;
-
     /// As many threads as given, silent.
     pub fn with_threads(threads: usize) -> Self {
         Self { threads, ..Self::default() }
@@ -86,7 +96,7 @@ impl Exec {
 
     /// Runs `work` where rayon's parallel iterators use the threads asked for.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        match rayon::ThreadPoolBuilder::new().num_threads(self.threads).stack_size(Self::STACK_BYTES).build() {
+        match rayon::ThreadPoolBuilder::new().num_threads(self.threads).build() {
             Ok(pool) => pool.install(work),
             // No threads to be had: whatever pool there is must do, and at worst this very thread.
             Err(_) => work(),

@@ -1,1 +1,5 @@
-//! (to come)
+//! Questions about a finished solid: one file or folder for each.
+
+pub mod measure;
+
+pub use measure::{MeasureError, MeasureOptions, Measures, measure};

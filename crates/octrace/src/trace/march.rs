@@ -28,6 +28,7 @@ pub(crate) struct March<'a> {
 
 impl<'a> March<'a> {
     pub fn new(catalog: &'a Catalog, ray: &'a Ray, roots: &'a mut Roots, counters: &'a mut Counters) -> Self {
+        roots.begin_ray();
         Self { catalog, ray, roots, counters, inside: None }
     }
 

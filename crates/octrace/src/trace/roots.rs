@@ -6,7 +6,7 @@
 
 use crate::compile::{Catalog, Word, node_end};
 use crate::geom::{Hit, Ray};
-use crate::surface::Sides;
+use crate::surface::{Sides, Surface};
 
 /// The crossings of one ray with the literals of one program; scratch memory of a worker.
 #[derive(Debug, Default)]
@@ -14,6 +14,8 @@ pub(crate) struct Roots {
     /// For every word of the program; operators have an empty row.
     rows: Vec<Row>,
     params: Vec<f64>,
+    /// Meshes that this ray has met already, and where it crosses them: a mesh reaches through many cells.
+    meshes: Vec<(u32, Vec<f64>)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +35,12 @@ pub(crate) struct Change {
 }
 
 impl Roots {
-    /// Crosses the ray with every literal of the program.
+    /// Forgets what is known of the ray before.
+    pub fn begin_ray(&mut self) {
+        self.meshes.clear();
+    }
+
+    /// Crosses the ray, the same as since [`begin_ray`](Self::begin_ray), with every literal of the program.
     pub fn solve(&mut self, catalog: &Catalog, words: &[u32], ray: &Ray) {
         self.rows.clear();
         self.params.clear();
@@ -42,11 +49,26 @@ impl Roots {
             let mut starts_inside = false;
             if let Word::Literal { index, negated } = Word::decode(word) {
                 let surface = catalog.literals[index as usize].surface;
-                starts_inside =
-                    negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut self.params);
+                starts_inside = negated ^ self.cross(catalog, surface, ray);
             }
             self.rows.push(Row { start, len: self.params.len() as u32 - start, starts_inside });
         }
+    }
+
+    fn cross(&mut self, catalog: &Catalog, surface: u32, ray: &Ray) -> bool {
+        let shape = &catalog.surfaces[surface as usize];
+        if !matches!(shape, Surface::Mesh(_)) {
+            return shape.crossings(&catalog.surfaces, ray, &mut self.params);
+        }
+        let known = self.meshes.iter().position(|&(mesh, _)| mesh == surface).unwrap_or_else(|| {
+            let mut params = Vec::new();
+            shape.crossings(&catalog.surfaces, ray, &mut params);
+            self.meshes.push((surface, params));
+            self.meshes.len() - 1
+        });
+        self.params.extend_from_slice(&self.meshes[known].1);
+        // Meshes are bounded: every line comes from outside.
+        false
     }
 
     fn sides(&self, at: usize) -> Sides<'_> {

@@ -6,7 +6,7 @@ use super::march::{March, Stop};
 use super::report::{RayReport, VisitedCell};
 use super::roots::Roots;
 use crate::compile::{Catalog, CompileReport, Program, compile, program_text};
-use crate::exec::{Cancelled, Exec};
+use crate::exec::{Cancelled, Exec, with_stack_for};
 use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
 use crate::model::{PartId, Solid};
 use crate::octree::{BuildOptions, Octree, OctreeStats, build};
@@ -128,6 +128,20 @@ pub struct Tracer {
 struct Body {
     program: Program,
     octree: Option<Octree>,
+    /// How deep the program is nested.
+    nesting: usize,
+}
+
+impl Body {
+    /// The spans of the whole line, without the octree.
+    fn canonical_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
+        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
+    }
+
+    /// The spans that the line has far away from everything bounded.
+    fn outer_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
+        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray))
+    }
 }
 
 impl Tracer {
@@ -154,7 +168,7 @@ impl Tracer {
         let bodies = compiled
             .bodies
             .into_iter()
-            .map(|program| Ok(Body { octree: build_octree(&program)?, program }))
+            .map(|program| Ok(Body { octree: build_octree(&program)?, nesting: program.nesting(), program }))
             .collect::<Result<_, Cancelled>>()?;
         Ok(Self { catalog, bodies, options: *options, report: compiled.report, bounds })
     }
@@ -197,13 +211,12 @@ impl Tracer {
         let hit = match self.accelerated(body, &prepared.ray, (start, end), scratch, ControlFlow::Break) {
             ControlFlow::Continue(()) => None,
             ControlFlow::Break(Stop::Done(hit)) => Some(hit),
-            ControlFlow::Break(Stop::Leak) => {
-                canonical::spans(&self.catalog, &self.bodies[body].program.whole, &prepared.ray)
-                    .into_iter()
-                    .flat_map(|span| [span.enter, span.exit])
-                    .flatten()
-                    .find(|hit| start < hit.t && hit.t <= end)
-            }
+            ControlFlow::Break(Stop::Leak) => self.bodies[body]
+                .canonical_spans(&self.catalog, &prepared.ray)
+                .into_iter()
+                .flat_map(|span| [span.enter, span.exit])
+                .flatten()
+                .find(|hit| start < hit.t && hit.t <= end),
         };
         hit.map(|hit| prepared.outer_hit(hit))
     }
@@ -217,14 +230,14 @@ impl Tracer {
     pub fn body_contains(&self, body: usize, point: Vec3, scratch: &mut Scratch) -> bool {
         // A direction that no face is likely to contain.
         let ray = Ray { origin: point, direction: Vec3::new(0.5773, 0.5131, 0.6351) };
-        let whole = &self.bodies[body].program.whole;
         match self.accelerated(body, &ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
             ControlFlow::Continue(()) => {
                 // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
-                canonical::spans(&self.catalog, &self.bodies[body].program.outer, &ray).iter().any(|s| s.exit.is_none())
+                self.bodies[body].outer_spans(&self.catalog, &ray).iter().any(|s| s.exit.is_none())
             }
             ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
-            ControlFlow::Break(Stop::Leak) => canonical::spans(&self.catalog, whole, &ray)
+            ControlFlow::Break(Stop::Leak) => self.bodies[body]
+                .canonical_spans(&self.catalog, &ray)
                 .iter()
                 .any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t()),
         }
@@ -255,9 +268,9 @@ impl Tracer {
                 ControlFlow::Continue(())
             });
         let spans = if stop.is_break() {
-            canonical::spans(&self.catalog, &self.bodies[body].program.whole, ray)
+            self.bodies[body].canonical_spans(&self.catalog, ray)
         } else if hits.is_empty() {
-            canonical::spans(&self.catalog, &self.bodies[body].program.outer, ray)
+            self.bodies[body].outer_spans(&self.catalog, ray)
         } else {
             spans_of(&hits)
         };
@@ -273,11 +286,11 @@ impl Tracer {
         scratch: &mut Scratch,
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
-        let Body { program, octree } = &self.bodies[body];
+        let Body { program, octree, nesting } = &self.bodies[body];
         let Scratch { roots, counters } = scratch;
         if self.options.accel == Accel::None {
             counters.surface_tests += self.catalog.literals.len() as u64;
-            for span in canonical::spans(&self.catalog, &program.whole, ray) {
+            for span in self.bodies[body].canonical_spans(&self.catalog, ray) {
                 for hit in [span.enter, span.exit].into_iter().flatten() {
                     if start < hit.t
                         && hit.t <= end
@@ -290,10 +303,8 @@ impl Tracer {
             return ControlFlow::Continue(());
         }
         let mut march = March::new(&self.catalog, ray, roots, counters);
-        let stop = match octree {
-            Some(octree) => march.along(program, Some(octree), self.options.traversal, (start, end), on_hit),
-            None => march.along(program, None, self.options.traversal, (start, end), on_hit),
-        };
+        let traversal = self.options.traversal;
+        let stop = with_stack_for(*nesting, || march.along(program, octree.as_ref(), traversal, (start, end), on_hit));
         if let ControlFlow::Break(Stop::Leak) = stop {
             counters.leaks += 1;
         }

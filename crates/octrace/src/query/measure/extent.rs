@@ -1,0 +1,229 @@
+//! The bounding box: how far a solid reaches to each of six sides.
+//!
+//! A ray along an axis tells exactly how far the solid reaches *there*. So for each side, climb: throw a net of rays,
+//! follow the best one uphill. Then prove: cells above what was reached are shown to be empty, or cut in two. Cells that
+//! stay undecided (coincident surfaces leave such phantoms) never count as reached, however many there are.
+
+use super::body::{Body, Chord};
+use crate::exec::{Cancelled, Exec};
+use crate::geom::{Bounds, Ray, Vec3, sin_cos_deg};
+use rayon::prelude::*;
+use std::collections::VecDeque;
+
+/// What is not closer than this to the truth, relative to the diagonal of the first box, is looked at again.
+const RESOLUTION: f64 = 1e-7;
+/// Chords shorter than this, relative to the same, may be mere rounding between coincident surfaces.
+const SHORTEST_CHORD: f64 = 1e-9;
+/// Rays of the first net, along each of its edges.
+const NET: u32 = 32;
+/// After so many undecided cells a proof is given up.
+const MAX_CELLS: usize = 4096;
+
+/// How far a solid reaches.
+pub(super) struct Extent {
+    /// The box as far as rays have met the solid; empty where they have not.
+    pub confirmed: Bounds,
+    /// The box out of which the solid certainly does not reach, up to the resolution.
+    pub possible: Bounds,
+    /// Rays traced.
+    pub rays: u64,
+}
+
+impl Extent {
+    /// How far the solid may reach out of the confirmed box; zero if both boxes are empty.
+    pub fn error(&self) -> f64 {
+        match (self.confirmed.is_empty(), self.possible.is_empty()) {
+            (true, _) => self.possible.size().max_abs(),
+            _ => (self.confirmed.min - self.possible.min).max(self.possible.max - self.confirmed.max).max_abs(),
+        }
+    }
+}
+
+/// Finds the extent of a body.
+pub(super) fn extent(body: &impl Body, exec: &Exec) -> Result<Extent, Cancelled> {
+    let room = body.bounds();
+    if room.is_empty() {
+        return Ok(Extent { confirmed: Bounds::EMPTY, possible: Bounds::EMPTY, rays: 0 });
+    }
+    let sides = [(0, -1.0), (0, 1.0), (1, -1.0), (1, 1.0), (2, -1.0), (2, 1.0)];
+    exec.progress.begin("finding the bounding box", 6);
+    let found: Vec<Result<Found, Cancelled>> = sides
+        .into_par_iter()
+        .map(|(axis, sign)| {
+            let found = Climb::new(body, room, axis, sign).run(exec);
+            exec.progress.advance(1);
+            found
+        })
+        .collect();
+    exec.progress.end();
+    let mut extent = Extent { confirmed: Bounds::EMPTY, possible: Bounds::EMPTY, rays: 0 };
+    for ((axis, sign), found) in sides.into_iter().zip(found) {
+        let Found { reached, limit, rays } = found?;
+        let end = |b: &mut Bounds, height: f64| match sign < 0.0 {
+            true => b.min[axis] = -height,
+            false => b.max[axis] = height,
+        };
+        end(&mut extent.confirmed, reached);
+        end(&mut extent.possible, limit);
+        extent.rays += rays;
+    }
+    // Met from some sides only: too little to be a box.
+    if extent.confirmed.is_empty() {
+        extent.confirmed = Bounds::EMPTY;
+    }
+    Ok(extent)
+}
+
+/// How far the solid reaches to one side, as a height to that side.
+struct Found {
+    reached: f64,
+    /// No point is higher.
+    limit: f64,
+    rays: u64,
+}
+
+/// The search for the highest point, where up is one of the six sides.
+struct Climb<'a, B: Body> {
+    body: &'a B,
+    room: Bounds,
+    axis: usize,
+    sign: f64,
+    /// Heights closer than this are as good as equal.
+    resolution: f64,
+    shortest_chord: f64,
+    /// The best height so far, and the place across the axis where it was found.
+    reached: f64,
+    place: Vec3,
+    scratch: B::Scratch,
+    chords: Vec<Chord>,
+    rays: u64,
+}
+
+impl<'a, B: Body> Climb<'a, B> {
+    fn new(body: &'a B, room: Bounds, axis: usize, sign: f64) -> Self {
+        let size = room.diagonal();
+        Self {
+            body,
+            room,
+            axis,
+            sign,
+            resolution: RESOLUTION * size,
+            shortest_chord: SHORTEST_CHORD * size,
+            reached: f64::NEG_INFINITY,
+            place: room.center(),
+            scratch: B::Scratch::default(),
+            chords: Vec::new(),
+            rays: 0,
+        }
+    }
+
+    fn run(mut self, exec: &Exec) -> Result<Found, Cancelled> {
+        let [u, v] = self.across();
+        let step = self.room.size() / f64::from(NET);
+        for i in 0..NET {
+            exec.cancel.check()?;
+            for j in 0..NET {
+                let mut place = self.room.min;
+                place[u] += (f64::from(i) + 0.5) * step[u];
+                place[v] += (f64::from(j) + 0.5) * step[v];
+                self.try_at(place);
+            }
+        }
+        self.follow(step);
+        let limit = self.prove(exec)?;
+        Ok(Found { reached: self.reached, limit, rays: self.rays })
+    }
+
+    /// The axes across the one to climb along.
+    fn across(&self) -> [usize; 2] {
+        [(self.axis + 1) % 3, (self.axis + 2) % 3]
+    }
+
+    /// Traces a ray upwards through this place and keeps what it reaches if that is the highest.
+    fn try_at(&mut self, place: Vec3) -> bool {
+        let mut origin = place;
+        origin[self.axis] = self.room.center()[self.axis];
+        let mut direction = Vec3::ZERO;
+        direction[self.axis] = self.sign;
+        self.body.chords(&Ray { origin, direction }, &mut self.scratch, &mut self.chords);
+        self.rays += 1;
+        let solid = self.chords.iter().rfind(|c| c.end - c.start > self.shortest_chord);
+        let Some(chord) = solid else { return false };
+        let height = self.sign * origin[self.axis] + chord.end;
+        if height > self.reached {
+            (self.reached, self.place) = (height, place);
+            return true;
+        }
+        false
+    }
+
+    /// Goes uphill from the best place, by steps that shrink where no neighbour is higher. The neighbours tried turn
+    /// from one round to the next, so that a ridge does not hold the search up for long.
+    fn follow(&mut self, mut step: Vec3) {
+        let [u, v] = self.across();
+        let mut turn_deg = 0.0;
+        while self.reached > f64::NEG_INFINITY && step.max_abs() > 0.01 * self.resolution {
+            let before = self.reached;
+            let from = self.place;
+            for neighbour in 0..8 {
+                let (s, c) = sin_cos_deg(turn_deg + 45.0 * f64::from(neighbour));
+                let mut place = from;
+                place[u] += step[u] * c;
+                place[v] += step[v] * s;
+                self.try_at(place);
+            }
+            turn_deg += 137.5;
+            // Creeping along counts as standing still.
+            if self.reached - before <= self.resolution {
+                step = step * 0.6;
+            }
+        }
+    }
+
+    /// Shows that nothing is higher than what was reached, by more than the resolution, or finds it. Answers with a
+    /// height that certainly is not exceeded.
+    fn prove(&mut self, exec: &Exec) -> Result<f64, Cancelled> {
+        let mut limit = self.reached + self.resolution;
+        let mut undecided = VecDeque::from([self.room]);
+        let mut cells = 0;
+        while let Some(cell) = undecided.pop_front() {
+            let cell = self.above_reached(cell);
+            if cell.is_empty() || self.body.is_outside(&cell) {
+                continue;
+            }
+            exec.cancel.check()?;
+            cells += 1;
+            let size = cell.size();
+            if cells > MAX_CELLS || size.max_abs() <= self.resolution {
+                limit = limit.max(self.top(&cell));
+                continue;
+            }
+            if self.try_at(cell.center()) {
+                self.follow(size * 0.25);
+                limit = limit.max(self.reached + self.resolution);
+            }
+            let longest = if size.x >= size.y && size.x >= size.z { 0 } else { if size.y >= size.z { 1 } else { 2 } };
+            let (mut low, mut high) = (cell, cell);
+            low.max[longest] = cell.center()[longest];
+            high.min[longest] = cell.center()[longest];
+            undecided.extend([low, high]);
+        }
+        Ok(limit)
+    }
+
+    /// The part of a cell that is higher than what was reached.
+    fn above_reached(&self, mut cell: Bounds) -> Bounds {
+        let floor = self.reached + self.resolution;
+        if self.sign > 0.0 {
+            cell.min[self.axis] = cell.min[self.axis].max(floor);
+        } else {
+            cell.max[self.axis] = cell.max[self.axis].min(-floor);
+        }
+        cell
+    }
+
+    /// The height of a cell's upper side.
+    fn top(&self, cell: &Bounds) -> f64 {
+        if self.sign > 0.0 { cell.max[self.axis] } else { -cell.min[self.axis] }
+    }
+}
