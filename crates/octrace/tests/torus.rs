@@ -86,7 +86,7 @@ proptest! {
         let ray = Ray::new(map.point(origin), map.vector(along));
         let crossings = torus.crossings(&ray);
         let params = crossings.params();
-        prop_assert!(!crossings.starts_inside() && params.len() % 2 == 0);
+        prop_assert!(!crossings.starts_inside() && params.len().is_multiple_of(2));
         prop_assert!(params.is_sorted());
 
         // Placements stretch and shrink by less than 50 together.
