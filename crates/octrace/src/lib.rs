@@ -5,6 +5,7 @@ pub mod exec;
 pub mod film;
 pub mod geom;
 pub mod model;
+pub mod num;
 pub mod octree;
 pub mod primitive;
 pub mod query;

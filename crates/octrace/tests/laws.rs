@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{lattice_point, lattice_ray, lattice_solid, near_lattice_ray};
+use common::{cases, lattice_point, lattice_ray, lattice_solid, near_lattice_ray};
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
 use octrace::trace::Scratch;
@@ -24,7 +24,7 @@ fn octree(solid: &Solid, leaf_surfaces: usize, depth: u32, traversal: TraversalK
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1500, ..ProptestConfig::default() })]
+    #![proptest_config(cases(1500))]
 
     /// The octree is an accelerator: it must never be visible.
     #[test]

@@ -96,11 +96,12 @@ impl Look {
         let mut material = self.material.unwrap_or_default();
         if let Some(Color { rgb, alpha }) = self.color {
             material.color = rgb.unwrap_or(material.color);
-            // What is not opaque lets the rest of the light pass, the less filtered the clearer it is.
+            // What is not opaque lets the rest of the light pass.
             material.ka *= alpha;
             material.kd *= alpha;
-            if material.kt == 0.0 {
-                material.tint *= alpha;
+            if alpha < 1.0 && !material.is_transparent() {
+                // As pictures are laid over each other: what is behind keeps its colour.
+                material.tint = 0.0;
             }
             material.kt = 1.0 - alpha * (1.0 - material.kt);
         }

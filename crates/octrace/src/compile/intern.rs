@@ -8,7 +8,7 @@
 
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::primitive::SurfaceRef;
-use crate::surface::{Plane, Quadric, QuadricKind, Surface};
+use crate::surface::{Plane, Quadric, QuadricKind, Surface, Torus};
 use std::collections::HashMap;
 
 /// What joining surfaces did.
@@ -31,7 +31,18 @@ pub(super) enum Face {
     Unbounded { plane: Plane },
     /// A quadric patch; `map` takes the unit quadric to the scene, the patch lies between the two local heights.
     Quadric { kind: QuadricKind, map: Affine, to_local: Affine, heights: (f64, f64) },
+    /// A torus; `map` takes its own coordinates to the scene.
+    Torus { minor: f64, map: Affine, to_local: Affine },
 }
+
+/// The corners of a regular pentagon. Five points fix a conic.
+const FIVE: [(f64, f64); 5] = [
+    (1.0, 0.0),
+    (0.309_016_994_374_947_45, 0.951_056_516_295_153_5),
+    (-0.809_016_994_374_947_3, 0.587_785_252_292_473_2),
+    (-0.809_016_994_374_947_6, -0.587_785_252_292_472_9),
+    (0.309_016_994_374_947_23, -0.951_056_516_295_153_6),
+];
 
 impl Face {
     fn samples(&self) -> Vec<Vec3> {
@@ -55,17 +66,19 @@ impl Face {
             }
             Self::Quadric { kind, map, heights, .. } => {
                 // Five points fix the conic, three more the direction.
-                const FIVE: [(f64, f64); 5] = [
-                    (1.0, 0.0),
-                    (0.309_016_994_374_947_45, 0.951_056_516_295_153_5),
-                    (-0.809_016_994_374_947_3, 0.587_785_252_292_473_2),
-                    (-0.809_016_994_374_947_6, -0.587_785_252_292_472_9),
-                    (0.309_016_994_374_947_23, -0.951_056_516_295_153_6),
-                ];
                 let radius = |z: f64| if *kind == QuadricKind::Cone { z.abs() } else { 1.0 };
                 let at = |(x, y): (f64, f64), z: f64| map.point(Vec3::new(x * radius(z), y * radius(z), z));
                 let (low, high) = *heights;
                 FIVE.iter().map(|&p| at(p, low)).chain([0, 2, 3].map(|i| at(FIVE[i], high))).collect()
+            }
+            Self::Torus { minor, map, .. } => {
+                let around = |(c, s): (f64, f64)| {
+                    let tube = [(1.0 + minor, 0.0), (1.0, *minor), (1.0, -minor), (1.0 - minor, 0.0)];
+                    // Of a spindle, what is beyond the axis is no part of the surface.
+                    let tube = tube.into_iter().filter(|(radius, _)| *radius > 0.0);
+                    tube.map(move |(radius, z)| map.point(Vec3::new(c * radius, s * radius, z)))
+                };
+                FIVE.into_iter().flat_map(around).collect()
             }
         }
     }
@@ -103,8 +116,8 @@ struct Interner<'a> {
     radius: f64,
     /// Faces this close are the same, in scene units.
     tolerance: f64,
-    /// What rounding alone may do.
-    rounding: f64,
+    /// Moves longer than this count as snapping; shorter ones are what long products of matrices do.
+    noteworthy: f64,
     /// Normals of equal planes differ by no more than this, by component.
     normal_tolerance: f64,
     /// Positions of equal surfaces, as far as bins see them, differ by no more than this.
@@ -129,9 +142,10 @@ impl<'a> Interner<'a> {
         let tolerance = rounding.max(snap * size);
         let normal_tolerance = if snap > 0.0 { 1e-5_f64.max(4.0 * snap) } else { 1e-11 };
         let place_tolerance = tolerance + normal_tolerance * size;
+        let noteworthy = rounding.max(1e-10 * size);
         let report = CompileReport { tolerance, ..CompileReport::default() };
         let (bins, center, radius) = (HashMap::new(), extent.center(), size / 2.0);
-        Self { surfaces, bins, center, radius, tolerance, rounding, normal_tolerance, place_tolerance, report }
+        Self { surfaces, bins, center, radius, tolerance, noteworthy, normal_tolerance, place_tolerance, report }
     }
 
     fn face(&mut self, face: &Face) -> SurfaceRef {
@@ -139,6 +153,10 @@ impl<'a> Interner<'a> {
             Face::Plane { plane, corners } => self.plane(plane, corners),
             Face::Unbounded { plane } => self.plane(plane, &self.corners_of(plane)),
             Face::Quadric { kind, map, to_local, .. } => self.quadric(*kind, map, *to_local, &face.samples()),
+            Face::Torus { minor, map, to_local } => {
+                let place = Place { kind: 4, at: (map.translation - self.center).to_array(), extra: 0.0 };
+                self.curved(Surface::Torus(Torus { minor: *minor, to_local: *to_local }), place, &face.samples())
+            }
         }
     }
 
@@ -210,10 +228,12 @@ impl<'a> Interner<'a> {
             }
         };
         let place = Place { kind: 1 + kind as i64, at: (anchor - self.center).to_array(), extra: 0.0 };
-        let surface = match self.find(place, samples) {
-            Some(surface) => surface,
-            None => self.insert(Surface::Quadric(Quadric { kind, to_local }), place),
-        };
+        self.curved(Surface::Quadric(Quadric { kind, to_local }), place, samples)
+    }
+
+    /// A surface whose inside needs no choosing.
+    fn curved(&mut self, surface: Surface, place: Place, samples: &[Vec3]) -> SurfaceRef {
+        let surface = self.find(place, samples).unwrap_or_else(|| self.insert(surface, place));
         SurfaceRef { surface, flipped: false }
     }
 
@@ -251,7 +271,7 @@ impl<'a> Interner<'a> {
     }
 
     fn note_move(&mut self, moved: f64) {
-        if moved > self.rounding {
+        if moved > self.noteworthy {
             self.report.snapped_surfaces += 1;
         }
         self.report.largest_move = self.report.largest_move.max(moved);
@@ -343,5 +363,32 @@ mod tests {
         let (refs, _) = interned(&[flat, square(0.0, 1e-4, 9.0), square(0.0, 1e-6, 8.0)], 2e-6);
         assert_ne!(refs[0], refs[1]);
         assert_eq!(refs[0], refs[2]);
+    }
+
+    #[test]
+    fn tori_that_look_the_same_are_one() {
+        let torus = |minor: f64, map: Affine| Face::Torus { minor, map, to_local: map.inverse().unwrap() };
+        let at = |turn: f64, size: f64| {
+            Affine::translation(Vec3::new(0.1, 0.2, 0.3))
+                * Affine::rotation_deg(Vec3::new(30.0, 0.0, 0.0))
+                * Affine::rotation_deg(Vec3::new(0.0, 0.0, turn))
+                * Affine::scale(Vec3::splat(size))
+        };
+        let turned_over = at(0.0, 2.0) * Affine::rotation_deg(Vec3::new(180.0, 0.0, 0.0));
+        for minor in [0.25, 1.5] {
+            let (refs, _) = interned(
+                &[
+                    torus(minor, at(0.0, 2.0)),
+                    torus(minor, at(17.0, 2.0)),
+                    torus(minor, turned_over),
+                    torus(minor * 1.001, at(0.0, 2.0)),
+                    torus(minor, at(0.0, 2.001)),
+                ],
+                0.0,
+            );
+            assert_eq!(refs[0], refs[1]);
+            assert_eq!(refs[0], refs[2]);
+            assert!((refs[0] != refs[3]) && (refs[0] != refs[4]) && (refs[3] != refs[4]));
+        }
     }
 }

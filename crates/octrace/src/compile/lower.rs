@@ -195,6 +195,8 @@ impl Lowering {
             }
             Primitive::Cone { top } => faces.cone(*top),
             Primitive::HalfSpace => faces.half_space(),
+            // A tube too thin or too fat for its square to be a number is nothing to working precision.
+            Primitive::Torus { minor } if *minor > 0.0 && (minor * minor).is_normal() => faces.torus(*minor),
             Primitive::Torus { .. } => return nothing(negated),
             Primitive::Polyhedron(polyhedron) => {
                 faces.polyhedron(polyhedron);
@@ -319,6 +321,10 @@ impl FaceList<'_> {
         if let Some(plane) = self.moved_plane(-Vec3::Z, &[on_plane]) {
             self.faces.push(Face::Unbounded { plane });
         }
+    }
+
+    fn torus(&mut self, minor: f64) {
+        self.faces.push(Face::Torus { minor, map: *self.map, to_local: self.inverse });
     }
 
     /// A quadric; `placed` takes its own coordinates to those of the primitive.

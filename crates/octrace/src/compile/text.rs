@@ -46,5 +46,6 @@ fn surface_text(surface: &Surface) -> String {
         }
         Surface::Mesh(m) => format!("mesh of {} triangles", m.triangle_count()),
         Surface::Quadric(q) => format!("{:?}", q.kind).to_lowercase(),
+        Surface::Torus(t) => format!("torus of minor radius {:.6}", t.minor),
     }
 }

@@ -27,6 +27,15 @@ impl Crossings {
         Self { t: [a + 0.0, b + 0.0, 0.0, 0.0], count: 2, starts_inside }
     }
 
+    /// Adds a change of sides, not before those that are there.
+    ///
+    /// # Panics
+    /// If there are four already.
+    pub fn push(&mut self, t: f64) {
+        self.t[self.count as usize] = t + 0.0;
+        self.count += 1;
+    }
+
     /// Whether the line comes from inside.
     pub fn starts_inside(&self) -> bool {
         self.starts_inside

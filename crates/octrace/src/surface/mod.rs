@@ -7,10 +7,12 @@
 mod crossings;
 mod plane;
 mod quadric;
+mod torus;
 
 pub use crossings::{Crossings, Sides};
 pub use plane::Plane;
 pub use quadric::{Quadric, QuadricKind};
+pub use torus::Torus;
 
 use crate::geom::{Ray, Vec3};
 use crate::primitive::{Crossing, Mesh};
@@ -43,6 +45,8 @@ pub enum Surface {
     Plane(Plane),
     /// Ellipsoid, elliptic cylinder or elliptic double cone.
     Quadric(Quadric),
+    /// Torus, ring or spindle.
+    Torus(Torus),
     /// The boundary of a polyhedron that is not convex. Its faces lie in planes that are surfaces too.
     Mesh(Arc<Mesh>),
 }
@@ -54,6 +58,7 @@ impl Surface {
         let crossings = match self {
             Self::Plane(plane) => plane.crossings(ray),
             Self::Quadric(quadric) => quadric.crossings(ray),
+            Self::Torus(torus) => torus.crossings(ray),
             Self::Mesh(mesh) => {
                 params.extend(mesh_toggles(mesh, all, ray).iter().map(|toggle| toggle.t));
                 return false;
@@ -69,6 +74,7 @@ impl Surface {
         match self {
             Self::Plane(plane) => plane.classify(cell),
             Self::Quadric(quadric) => quadric.classify(cell),
+            Self::Torus(torus) => torus.classify(cell),
             Self::Mesh(mesh) => {
                 if mesh.touches_box(cell.center, cell.half) {
                     Side::Crossing
@@ -85,7 +91,7 @@ impl Surface {
     /// or out of it; and whether that surface's outward side is this one's inside.
     pub fn facet_at(&self, own: u32, all: &[Surface], ray: &Ray, t: f64, entering: bool) -> (u32, bool) {
         match self {
-            Self::Plane(_) | Self::Quadric(_) => (own, false),
+            Self::Plane(_) | Self::Quadric(_) | Self::Torus(_) => (own, false),
             Self::Mesh(mesh) => {
                 let toggles = mesh_toggles(mesh, all, ray);
                 let seen = toggles.iter().find(|toggle| toggle.t == t && toggle.entering == entering);
@@ -95,12 +101,13 @@ impl Surface {
         }
     }
 
-    /// The outward normal at a point of a simple surface, not normalised; zero at a cone's apex, and for a mesh, whose
-    /// faces' planes are asked instead.
+    /// The outward normal at a point of a simple surface, not normalised; zero at a cone's apex, where a torus closes
+    /// in one point, and for a mesh, whose faces' planes are asked instead.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
         match self {
             Self::Plane(plane) => plane.normal,
             Self::Quadric(quadric) => quadric.gradient(p),
+            Self::Torus(torus) => torus.gradient(p),
             Self::Mesh(_) => Vec3::ZERO,
         }
     }
@@ -110,6 +117,7 @@ impl Surface {
         match self {
             Self::Plane(plane) => (plane.normal.dot(p) - plane.offset).abs(),
             Self::Quadric(quadric) => quadric.distance(p),
+            Self::Torus(torus) => torus.distance(p),
             Self::Mesh(_) => f64::INFINITY,
         }
     }

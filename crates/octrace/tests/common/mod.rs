@@ -4,6 +4,14 @@
 use octrace::{Ray, Solid, Vec3};
 use proptest::prelude::*;
 
+/// So many cases, unless the environment variable `PROPTEST_CASES` asks for another number.
+pub fn cases(usual: u32) -> ProptestConfig {
+    match std::env::var_os("PROPTEST_CASES") {
+        Some(_) => ProptestConfig::default(),
+        None => ProptestConfig::with_cases(usual),
+    }
+}
+
 /// A number of a coarse lattice.
 pub fn lattice() -> impl Strategy<Value = f64> {
     (-4i32..=4).prop_map(|i| f64::from(i) * 0.5)
@@ -29,6 +37,8 @@ pub fn lattice_primitive() -> impl Strategy<Value = Solid> {
         3 => Just(Solid::cylinder()),
         1 => Just(Solid::half_space()),
         1 => prop_oneof![Just(0.0), Just(0.5)].prop_map(|top| Solid::primitive(octrace::Primitive::Cone { top })),
+        1 => prop_oneof![Just(0.125), Just(0.5), Just(1.0), Just(1.25)]
+            .prop_map(|minor| Solid::primitive(octrace::Primitive::Torus { minor })),
     ];
     let scale = prop_oneof![
         2 => size().prop_map(Vec3::splat),

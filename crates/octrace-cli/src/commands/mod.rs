@@ -1,0 +1,31 @@
+//! One file per command.
+
+mod check;
+mod inspect;
+mod measure;
+mod render;
+
+use crate::args::{CheckArgs, Command, InspectArgs, MeasureArgs, RenderArgs};
+use crate::diagnostics::Show;
+use crate::output::say_error;
+use crate::session::Session;
+
+/// Runs a command; the answer is the process's exit code.
+pub fn run(command: &Command) -> u8 {
+    let (Command::Render(RenderArgs { quiet, .. })
+    | Command::Check(CheckArgs { quiet, .. })
+    | Command::Measure(MeasureArgs { quiet, .. })
+    | Command::Inspect(InspectArgs { quiet, .. })) = command;
+    let session = Session::start(if *quiet { Show::Errors } else { Show::All });
+    let result = match command {
+        Command::Render(args) => render::run(args, &session),
+        Command::Check(args) => check::run(args, &session),
+        Command::Measure(args) => measure::run(args, &session),
+        Command::Inspect(args) => inspect::run(args, &session),
+    };
+    let Err(failure) = result else { return 0 };
+    if failure.wants_message() {
+        say_error(&failure.to_string());
+    }
+    failure.exit_code()
+}

@@ -1,0 +1,117 @@
+//! From a file's name to a scene, with everything there is to say about it.
+
+use crate::args::ReadArgs;
+use crate::diagnostics;
+use crate::failure::Failure;
+use crate::session::Session;
+use octrace_read::scad::{self, ScadError};
+use octrace_read::{Diagnostic, Loaded, ReadOptions, Source, read_scene};
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// A file that was read, whatever became of it.
+pub struct Input {
+    /// Its text.
+    pub source: Source,
+    /// What there is to say about it.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What it describes, unless it has errors.
+    pub loaded: Option<Loaded>,
+}
+
+/// Which language a file is in, going by its name.
+enum Language {
+    /// OpenSCAD's dumps and our own scenes, which are one grammar.
+    Tree,
+    /// OpenSCAD's programs.
+    Scad,
+}
+
+/// Reads and checks a file; `-` is standard input.
+pub fn open(file: &Path, args: &ReadArgs, session: &Session) -> Result<Input, Failure> {
+    let source = match language(file)? {
+        Language::Tree if !args.define.is_empty() => {
+            let name = file.display();
+            return Err(Failure::Usage(format!("-D is for .scad files: {name} has no variables left to set")));
+        }
+        Language::Tree => Source::new(shown_name(file), bytes(file)?),
+        Language::Scad => evaluate(file, args, session)?,
+    };
+    let options = ReadOptions {
+        facets: args.facets,
+        skip_unsupported: args.skip_unsupported,
+        snap: args.snap,
+        ..ReadOptions::default()
+    };
+    let checked = read_scene(&source, &options);
+    Ok(Input { source, diagnostics: checked.diagnostics, loaded: checked.value })
+}
+
+/// Reads a file, says what there is to say about it, and goes on only if it has no errors.
+pub fn load(file: &Path, args: &ReadArgs, session: &Session) -> Result<(Source, Loaded), Failure> {
+    let input = open(file, args, session)?;
+    diagnostics::print(&input.source, &input.diagnostics, session.show);
+    let loaded = input.loaded.ok_or(Failure::Input)?;
+    Ok((input.source, loaded))
+}
+
+/// Has OpenSCAD turn a program into a dump, passing on what it says meanwhile.
+fn evaluate(file: &Path, args: &ReadArgs, session: &Session) -> Result<Source, Failure> {
+    // A missing file is our message to give, not OpenSCAD's.
+    if let Err(e) = fs::File::open(file) {
+        return Err(Failure::file("read", file, &e));
+    }
+    let evaluated = {
+        // Ctrl-C ends OpenSCAD too; the temporary files that it works with are still to be removed.
+        let _held_back = session.interrupt.hold_back();
+        scad::evaluate(file, &args.define)
+    };
+    if session.interrupt.happened() {
+        return Err(Failure::Interrupted);
+    }
+    let output = evaluated.map_err(|error| match &error {
+        ScadError::Rejected { .. } => Failure::NoAnswer(error.to_string()),
+        ScadError::Io { source, .. } => {
+            Failure::File { verb: "read", what: shown_name(file), why: format!("{error}: {source}") }
+        }
+        _ => Failure::File { verb: "read", what: shown_name(file), why: error.to_string() },
+    })?;
+    for line in output.echoes.iter().chain(&output.warnings) {
+        session.remark(&diagnostics::printable_text(line));
+    }
+    Ok(Source::new(format!("{} (dump)", file.display()), output.csg_text))
+}
+
+fn language(file: &Path) -> Result<Language, Failure> {
+    let extension = file.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        None | Some("csg" | "oct") => Ok(Language::Tree),
+        Some("scad") => Ok(Language::Scad),
+        Some(other) => Err(Failure::NoAnswer(format!(
+            "{}: .{other} files are not supported, only .csg, .oct and .scad; to read it as .csg all the same, pass - \
+             and feed it through standard input",
+            file.display()
+        ))),
+    }
+}
+
+/// The name that messages use.
+fn shown_name(file: &Path) -> String {
+    if file == Path::new("-") { "<stdin>".into() } else { file.display().to_string() }
+}
+
+fn bytes(file: &Path) -> Result<Vec<u8>, Failure> {
+    if file == Path::new("-") {
+        let mut bytes = Vec::new();
+        return match io::stdin().lock().read_to_end(&mut bytes) {
+            Ok(_) => Ok(bytes),
+            Err(e) => Err(Failure::file("read", Path::new("standard input"), &e)),
+        };
+    }
+    match fs::read(file) {
+        Ok(bytes) => Ok(bytes),
+        Err(_) if file.is_dir() => Err(Failure::folder("read", file)),
+        Err(e) => Err(Failure::file("read", file, &e)),
+    }
+}

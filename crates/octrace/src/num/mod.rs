@@ -1,0 +1,5 @@
+//! Numbers: finding roots.
+
+mod roots;
+
+pub use roots::{bracketed_root, cubic_roots};
