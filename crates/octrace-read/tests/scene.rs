@@ -41,7 +41,7 @@ fn colours_are_srgb_in_files_and_linear_in_scenes() {
 fn what_is_not_opaque_lets_light_pass() {
     let half = material("color(\"red\", 0.25) block();");
     let opaque = Material::plastic(Rgb::new(1.0, 0.0, 0.0));
-    let expected = Material { ka: opaque.ka * 0.25, kd: opaque.kd * 0.25, kt: 0.75, tint: 0.25, ..opaque };
+    let expected = Material { ka: opaque.ka * 0.25, kd: opaque.kd * 0.25, kt: 0.75, tint: 0.0, ..opaque };
     assert_eq!(half, expected);
     assert_eq!(material("color(alpha = 0.25) block();").color, Material::default().color);
 }
