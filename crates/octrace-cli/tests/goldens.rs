@@ -7,6 +7,7 @@ use octrace::exec::Exec;
 use octrace::film::{Background, Film, View, render};
 use octrace::model::frame_all;
 use octrace::octree::BuildOptions;
+use octrace::query::occupied_bounds;
 use octrace::{Accel, Camera, Projection, Scene, Tracer, TracerOptions, Vec3};
 use octrace_read::{ReadOptions, Source, read_scene};
 use std::fs;
@@ -47,11 +48,11 @@ fn camera(scene: &Scene, tracer: &Tracer, from: From) -> Camera {
     match from {
         From::Scene => {
             let perspective = Projection::Perspective { fov_deg: Camera::OPENSCAD_FOV_DEG };
-            scene.camera.unwrap_or_else(|| frame_all(&tracer.bounds(), None, perspective, SIZE_PX))
+            scene.camera.unwrap_or_else(|| frame_all(&occupied_bounds(tracer), None, perspective, SIZE_PX))
         }
         From::Along(direction) => {
             let aim = towards([0.0; 3], direction, 1.0);
-            frame_all(&tracer.bounds(), Some(&aim), orthographic(1.0), SIZE_PX)
+            frame_all(&occupied_bounds(tracer), Some(&aim), orthographic(1.0), SIZE_PX)
         }
         From::Points(eye, at, height) => towards(eye, at, height),
     }

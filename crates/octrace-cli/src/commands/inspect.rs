@@ -7,6 +7,7 @@ use crate::output::write_stdout;
 use crate::session::Session;
 use crate::tree::{self, NodeCounts};
 use crate::values::Pixel;
+use octrace::query::occupied_bounds;
 use octrace::{Bounds, Scene, Tracer};
 use octrace_read::{Loaded, Source};
 use std::fmt::Write;
@@ -108,7 +109,7 @@ fn bounds(bounds: &Bounds, unbounded: bool) -> String {
 /// The ray through the middle of a pixel, explained.
 fn explain(pixel: Pixel, args: &InspectArgs, scene: &Scene, tracer: &Tracer) -> String {
     let (width_px, height_px) = args.view.size_px();
-    let camera = args.view.framing().camera(scene.camera, &tracer.bounds(), (width_px, height_px));
+    let camera = args.view.framing().camera(scene.camera, &occupied_bounds(tracer), (width_px, height_px));
     let ray = camera.rays(width_px, height_px).ray(f64::from(pixel.x) + 0.5, f64::from(pixel.y) + 0.5);
     format!("\npixel {},{}\n{}", pixel.x, pixel.y, tracer.explain(&ray))
 }

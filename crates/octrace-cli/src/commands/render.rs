@@ -8,6 +8,7 @@ use crate::picture::{Alpha, encode_png};
 use crate::session::Session;
 use crate::stats::{Rays, Seconds, Stats, Stopwatch};
 use octrace::film::{Background, RenderStats, View, render};
+use octrace::query::occupied_bounds;
 use octrace::{Scene, Tracer};
 use octrace_read::Loaded;
 use std::path::{Path, PathBuf};
@@ -78,7 +79,7 @@ fn output_path(args: &RenderArgs) -> Result<PathBuf, Failure> {
 fn view(args: &RenderArgs, scene: &Scene, tracer: &Tracer) -> View {
     let (width_px, height_px) = args.view.size_px();
     View {
-        camera: args.view.framing().camera(scene.camera, &tracer.bounds(), (width_px, height_px)),
+        camera: args.view.framing().camera(scene.camera, &occupied_bounds(tracer), (width_px, height_px)),
         width_px,
         height_px,
         samples: args.look.samples,

@@ -5,7 +5,7 @@ use super::combine::combine;
 use super::march::{March, Stop};
 use super::report::{RayReport, VisitedCell};
 use super::roots::Roots;
-use crate::compile::{Catalog, CompileReport, Program, compile, program_text};
+use crate::compile::{Catalog, CompileReport, Constant, Program, compile, program_text};
 use crate::exec::{Cancelled, Exec, with_stack_for};
 use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
 use crate::model::{PartId, Solid};
@@ -333,13 +333,12 @@ impl Tracer {
 
     /// Whether the solid reaches outside [`bounds`](Self::bounds), as half-spaces do.
     pub fn is_unbounded(&self) -> bool {
-        use crate::compile::Constant;
         self.bodies.iter().any(|body| body.program.outer != Constant::Everywhere(false))
     }
 
     /// Where a box lies with respect to the solid. `Outside` and `Inside` are certain; `Crossing` may be either.
     pub fn classify_box(&self, bounds: &Bounds) -> Side {
-        use crate::compile::{Constant, Simplified, Simplifier};
+        use crate::compile::{Simplified, Simplifier};
         use crate::surface::CellBox;
         let cell = CellBox { center: bounds.center(), half: bounds.size() * 0.5 };
         let mut result = Side::Outside;
@@ -362,6 +361,16 @@ impl Tracer {
             }
         }
         result
+    }
+
+    /// What the programs refer to.
+    pub(crate) fn catalog(&self) -> &Catalog {
+        &self.catalog
+    }
+
+    /// The program of each body.
+    pub(crate) fn programs(&self) -> impl Iterator<Item = &Constant> {
+        self.bodies.iter().map(|body| &body.program.whole)
     }
 
     /// What joining coincident surfaces did.
@@ -410,9 +419,7 @@ impl Tracer {
             }
             let _ = self.options.traversal.walk(octree, &prepared.ray, t_in, root_out, |step| {
                 let program = match step.cell {
-                    crate::octree::Cell::Leaf(words) => {
-                        program_text(&self.catalog, &crate::compile::Constant::Words(words.into()))
-                    }
+                    crate::octree::Cell::Leaf(words) => program_text(&self.catalog, &Constant::Words(words.into())),
                     crate::octree::Cell::Inside => "everywhere\n".into(),
                     crate::octree::Cell::Outside => "nothing\n".into(),
                 };
