@@ -1,28 +1,33 @@
-//! Ctrl-C: the first one asks the running stage to stop, or ends the process where no stage listens; none of them
-//! leaves a file behind.
+//! Ctrl-C: asks the running stage to stop, and ends the process where nobody listens or answers. No file is left behind
+//! either way.
 
 use crate::failure::Failure;
 use octrace::exec::CancelToken;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// How long a stage may take to stop.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// What Ctrl-C does, shared with the signal handler.
 #[derive(Clone, Default)]
 pub struct Interrupt {
     token: CancelToken,
-    listening: Arc<AtomicUsize>,
-    holding_back: Arc<AtomicUsize>,
+    listeners: Arc<AtomicUsize>,
+    files: Arc<Mutex<()>>,
 }
 
-/// While this lives, the counter is one higher.
-pub struct Counted(Arc<AtomicUsize>);
+/// While this lives, somebody polls the token.
+pub struct Listening(Arc<AtomicUsize>);
 
 impl Interrupt {
-    /// Takes Ctrl-C over for this process. Until [`listen`](Self::listen), it ends the process at once.
+    /// Takes Ctrl-C over for this process.
     pub fn install() -> Self {
         let interrupt = Self::default();
         let handler = interrupt.clone();
-        // Where there is no handler to be had, Ctrl-C still ends the process; output files are safe either way.
+        // Where there is no handler to be had, Ctrl-C still ends the process, at once.
         let _ = ctrlc::set_handler(move || handler.happen());
         interrupt
     }
@@ -33,16 +38,16 @@ impl Interrupt {
         Self::default()
     }
 
-    /// While the value lives, somebody polls the token: the first Ctrl-C only sets it, a second one ends the process.
+    /// While the value lives, Ctrl-C leaves it to whoever polls the token to stop, if that does not take long.
     #[must_use]
-    pub fn listen(&self) -> Counted {
-        Counted::up(&self.listening)
+    pub fn listen(&self) -> Listening {
+        self.listeners.fetch_add(1, Ordering::SeqCst);
+        Listening(Arc::clone(&self.listeners))
     }
 
-    /// While the value lives, the process is not ended, so that a temporary file can be removed.
-    #[must_use]
-    pub fn hold_back(&self) -> Counted {
-        Counted::up(&self.holding_back)
+    /// While the value lives, there may be temporary files, and Ctrl-C does not end the process.
+    pub fn hold_back(&self) -> MutexGuard<'_, ()> {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The token for the core.
@@ -55,25 +60,19 @@ impl Interrupt {
         self.token.is_cancelled()
     }
 
+    /// Runs in a thread of its own.
     fn happen(&self) {
-        let again = self.token.is_cancelled();
         self.token.cancel();
-        let listening = self.listening.load(Ordering::SeqCst) > 0;
-        let holding_back = self.holding_back.load(Ordering::SeqCst) > 0;
-        if !holding_back && (again || !listening) {
-            std::process::exit(Failure::INTERRUPTED.into());
+        if self.listeners.load(Ordering::SeqCst) > 0 {
+            thread::sleep(PATIENCE);
         }
+        // Kept to the end, so that no temporary file can appear any more.
+        let _no_files = self.hold_back();
+        std::process::exit(Failure::INTERRUPTED.into());
     }
 }
 
-impl Counted {
-    fn up(counter: &Arc<AtomicUsize>) -> Self {
-        counter.fetch_add(1, Ordering::SeqCst);
-        Self(Arc::clone(counter))
-    }
-}
-
-impl Drop for Counted {
+impl Drop for Listening {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::SeqCst);
     }

@@ -2,7 +2,7 @@
 
 use crate::args::TraceArgs;
 use crate::diagnostics::Show;
-use crate::interrupt::{Counted, Interrupt};
+use crate::interrupt::{Interrupt, Listening};
 use crate::output::say;
 use crate::progress::Bar;
 use octrace::Tracer;
@@ -24,7 +24,7 @@ impl Session {
     }
 
     /// How the core is to work. While the second value lives, Ctrl-C is left to the core.
-    pub fn exec(&self, args: &TraceArgs) -> (Exec, Counted) {
+    pub fn exec(&self, args: &TraceArgs) -> (Exec, Listening) {
         let progress: Arc<dyn Progress> = match self.show {
             Show::All => Arc::new(Bar::new()),
             Show::Errors => Arc::new(Silent),

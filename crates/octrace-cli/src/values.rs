@@ -14,8 +14,9 @@ pub struct Size {
 }
 
 impl Size {
-    /// The most pixels a picture may have: beyond this the film alone needs more memory than most machines have.
-    pub const MOST_PIXELS: u64 = 1 << 28;
+    /// The most pixels a picture may have: at some 40 bytes each while rendering, more needs more memory than most
+    /// machines have.
+    pub const MOST_PIXELS: u64 = 1 << 27;
 }
 
 impl FromStr for Size {
@@ -33,7 +34,7 @@ impl FromStr for Size {
             return Err("a picture has at least one pixel".into());
         }
         if pixels > Self::MOST_PIXELS {
-            return Err(format!("that is {pixels} pixels; {} (16384x16384) are the most", Self::MOST_PIXELS));
+            return Err(format!("that is {pixels} pixels; {} (16384x8192) are the most", Self::MOST_PIXELS));
         }
         Ok(Self { width_px, height_px })
     }

@@ -1,6 +1,6 @@
 //! `.scad` sources, evaluated by the `openscad` program.
 
-use std::ffi::OsString;
+use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -73,7 +73,7 @@ pub fn evaluate(path: &Path, defines: &[String]) -> Result<ScadOutput, ScadError
 ///
 /// # Errors
 /// As for [`evaluate`].
-pub fn evaluate_with(program: &OsString, path: &Path, defines: &[String]) -> Result<ScadOutput, ScadError> {
+pub fn evaluate_with(program: &OsStr, path: &Path, defines: &[String]) -> Result<ScadOutput, ScadError> {
     let shown = || program.to_string_lossy().into_owned();
     let io_error = |source| ScadError::Io { program: shown(), source };
     // The folder goes, with all that is in it, when this function ends in whatever way.

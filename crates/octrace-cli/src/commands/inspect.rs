@@ -23,7 +23,7 @@ pub fn run(args: &InspectArgs, session: &Session) -> Result<(), Failure> {
     let scene = &loaded.scene;
     let tracer = {
         let (exec, _listening) = session.exec(&args.trace);
-        Tracer::build(&scene.solid, &args.trace.options(scene.snap), &exec)?
+        Tracer::build_bodies(&scene.bodies().solids, &args.trace.options(scene.snap), &exec)?
     };
     write_stdout(summary(&source, &loaded, &tracer).as_bytes())?;
     if args.tree {

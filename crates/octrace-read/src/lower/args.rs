@@ -76,8 +76,9 @@ impl<'a> Args<'a> {
         let message = format!("`{word}` has no argument `{name}`; it is ignored");
         match report.dialect {
             Dialect::Scene => {
-                let names = || self.word.params.iter().map(|(name, _)| *name);
-                let help = match nearest(name, names()) {
+                let names = || self.word.params.iter().map(|(param, _)| *param).filter(|param| !param.starts_with('$'));
+                let near = nearest(name, names()).or_else(|| names().find(|param| name.starts_with(param)));
+                let help = match near {
                     Some(near) => Some(format!("did you mean `{near}`?")),
                     None if self.word.params.is_empty() => Some(format!("`{word}` takes no arguments")),
                     None => Some(format!("it takes {}", names().collect::<Vec<_>>().join(", "))),

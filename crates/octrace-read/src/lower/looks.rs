@@ -42,8 +42,9 @@ impl Look {
             (Some((rgb, own_alpha)), alpha) => Color { rgb, alpha: alpha.unwrap_or(own_alpha) },
             (None, Some(alpha)) => Color { rgb: None, alpha },
         };
-        if self.color.is_none_or(|outer| outer.rgb.is_none()) {
-            let alpha = if inner.alpha.is_nan() { 1.0 } else { inner.alpha.clamp(0.0, 1.0) };
+        let alpha = if inner.alpha.is_nan() { 1.0 } else { inner.alpha.clamp(0.0, 1.0) };
+        let says_something = inner.rgb.is_some() || alpha < 1.0;
+        if says_something && self.color.is_none_or(|outer| outer.rgb.is_none()) {
             self.color = Some(Color { alpha, ..inner });
         }
         self

@@ -59,7 +59,7 @@ pub(crate) fn lower(ast: &Ast, source: &Source, options: &ReadOptions, out: &mut
         out.push(Diagnostic::note("background-modifier", at, message));
     }
     let solid = match result {
-        Operand::Solid(solid, _) => solid,
+        Operand::Solid(made) => made.solid,
         Operand::Empty | Operand::LeftOut => {
             if syntax_is_sound && !out.has_errors() {
                 out.push(empty_scene(ast, !skipped.is_empty()));

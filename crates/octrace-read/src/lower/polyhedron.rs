@@ -41,6 +41,11 @@ pub(super) fn solid(args: &Args<'_>, report: &mut Report<'_>) -> Option<Solid> {
     let points = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
     match Polyhedron::new(points, corners) {
         Ok(polyhedron) => Some(Solid::primitive(polyhedron)),
+        Err(PolyhedronError::Flat) => {
+            let wrong = "this polyhedron encloses no volume".to_owned();
+            report.degenerate("polyhedron-empty", args.name_at, wrong, "it is empty", None);
+            None
+        }
         Err(error) => {
             let original = |face: usize| usable.get(face).map_or(face, |(original, _)| *original);
             report.push(written.complaint(&error, original, args.name_at, report.text));
@@ -80,20 +85,30 @@ impl Written<'_> {
         at: SourceRange,
         text: &str,
     ) -> Diagnostic {
-        let PolyhedronError::Open { face, from, to, count } = error else {
-            return Diagnostic::error("polyhedron-unsound", at, format!("this polyhedron encloses nothing: {error}"));
-        };
-        let face = original(*face);
-        let edges = if *count == 1 { "an edge borders".to_owned() } else { format!("{count} edges border") };
         let corner = |i: u32| match self.points.get(i as usize) {
             Some([x, y, z]) => format!("point {i} at [{x}, {y}, {z}]"),
             _ => format!("point {i}"),
         };
-        let message = format!("this polyhedron is open: {edges} only one face");
-        let note =
-            format!("no other face continues face {face} across its edge from {} to {}", corner(*to), corner(*from));
-        Diagnostic::error("polyhedron-open", at, message)
-            .with_note(element_range(text, self.faces_at, &[face]), note)
-            .with_help("add the missing faces; corners go clockwise as seen from outside")
+        let place = |face: usize| element_range(text, self.faces_at, &[face]);
+        match error {
+            // From `to` to `from`: the faces were turned about.
+            PolyhedronError::Open { face, from, to, count } => {
+                let face = original(*face);
+                let edges = if *count == 1 { "an edge borders".to_owned() } else { format!("{count} edges border") };
+                let edge = format!("from {} to {}", corner(*to), corner(*from));
+                let message = format!("this polyhedron is open: {edges} only one face");
+                Diagnostic::error("polyhedron-open", at, message)
+                    .with_note(place(face), format!("no other face continues face {face} across its edge {edge}"))
+                    .with_help("add the missing faces; corners go clockwise as seen from outside")
+            }
+            PolyhedronError::Unorientable { face, from, to, .. } => {
+                let face = original(*face);
+                let edge = format!("from {} to {}", corner(*to), corner(*from));
+                let message = "this polyhedron has no inside: its faces cannot be turned to agree";
+                Diagnostic::error("polyhedron-unorientable", at, message)
+                    .with_note(place(face), format!("face {face} does not fit its neighbours at its edge {edge}"))
+            }
+            other => Diagnostic::error("polyhedron-unsound", at, format!("this polyhedron is not sound: {other}")),
+        }
     }
 }

@@ -16,12 +16,35 @@ use octrace::{Affine, BoolOp, PartId, Solid};
 /// What a node is to the operation around it.
 #[derive(Clone, Debug)]
 pub(super) enum Operand {
-    /// A solid, and the part of its first leaf that has one.
-    Solid(Solid, Option<PartId>),
+    /// A solid.
+    Solid(Made),
     /// Nothing, and meant to be.
     Empty,
     /// Something that cannot be rendered yet.
     LeftOut,
+}
+
+/// A solid, and what is known of its leaves.
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    pub solid: Solid,
+    /// The part of the first leaf that has one.
+    first_part: Option<PartId>,
+    /// Whether there are leaves that belong to no part yet.
+    bare: bool,
+}
+
+impl Made {
+    fn leaf(solid: Solid) -> Self {
+        Self { solid, first_part: None, bare: true }
+    }
+
+    /// With its bare leaves put into `part`.
+    fn part(self, part: PartId) -> Self {
+        let first_part = self.first_part.or(Some(part));
+        let solid = if self.bare { self.solid.part(part) } else { self.solid };
+        Self { solid, first_part, bare: false }
+    }
 }
 
 /// A node whose children are being gone through.
@@ -31,8 +54,8 @@ struct Frame<'a> {
     children: Siblings<'a>,
     operands: Vec<Operand>,
     look: Look,
-    /// The part that the children go into, if it starts here.
-    part: Option<PartId>,
+    /// Whether the look changes here.
+    new_look: bool,
     placement: Placement,
     /// From here to the scene.
     map: Affine,
@@ -85,7 +108,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             children: self.ast.roots(),
             operands: Vec::new(),
             look: Look::default(),
-            part: None,
+            new_look: false,
             placement: Placement::Moved(Affine::IDENTITY),
             map: Affine::IDENTITY,
             counts: self.root.is_none(),
@@ -186,13 +209,7 @@ impl<'a, 'r> Walk<'a, 'r> {
                 }
             }
         }
-        if frame.look != look {
-            let material = frame.look.material();
-            // A colour inside another one changes nothing.
-            if look.is_plain() || material != look.material() {
-                frame.part = Some(self.parts.of(material, args.name_at));
-            }
-        }
+        frame.new_look = frame.look != look;
         Step::Into(Box::new(frame))
     }
 
@@ -203,7 +220,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             children: self.ast.children(node),
             operands: Vec::new(),
             look,
-            part: None,
+            new_look: false,
             placement: Placement::Moved(Affine::IDENTITY),
             map,
             counts: false,
@@ -221,7 +238,7 @@ impl<'a, 'r> Walk<'a, 'r> {
         Some(match self.shapes.leaf(kind, args, &mut self.report) {
             Some(solid) => {
                 self.leaves += 1;
-                Operand::Solid(solid, None)
+                Operand::Solid(Made::leaf(solid))
             }
             None => Operand::Empty,
         })
@@ -229,42 +246,42 @@ impl<'a, 'r> Walk<'a, 'r> {
 
     /// Combines what the children of a node are.
     fn leave(&mut self, frame: Frame<'a>) -> Operand {
-        let Frame { node, kind, operands, look, part, placement, .. } = frame;
+        let Frame { node, kind, operands, look, new_look, placement, .. } = frame;
         let combined = match kind {
             Kind::Unsupported(_) => return Operand::LeftOut,
             Kind::Difference => self.difference(node, operands, look),
             Kind::Intersection => self.intersection(node, operands),
-            _ => union(operands),
+            _ => combine(BoolOp::Union, operands),
         };
-        let Operand::Solid(solid, first_part) = combined else { return combined };
-        let solid = match placement {
-            Placement::Moved(map) => solid.transform(map),
+        let Operand::Solid(made) = combined else { return combined };
+        let made = match placement {
+            Placement::Moved(map) => Made { solid: made.solid.transform(map), ..made },
             Placement::Flattened => return Operand::Empty,
         };
-        match part {
-            Some(part) => Operand::Solid(solid.part(part), first_part.or(Some(part))),
-            None => Operand::Solid(solid, first_part),
+        match node {
+            Some(node) if new_look && made.bare => {
+                let part = self.parts.of(look.material(), self.ast.name_at(node));
+                Operand::Solid(made.part(part))
+            }
+            _ => Operand::Solid(made),
         }
     }
 
     fn difference(&mut self, node: Option<NodeId>, operands: Vec<Operand>, look: Look) -> Operand {
-        let mut operands = operands.into_iter();
-        let (first, part) = match operands.next() {
-            Some(Operand::Solid(first, part)) => (first, part),
+        let wall = match operands.first() {
+            // The wall of a hole drilled into red plastic is red.
+            Some(Operand::Solid(first)) => first.first_part.filter(|_| look.is_plain()),
             Some(Operand::LeftOut) => {
                 self.consequence(node, "the first operand of this difference is left out, and so is all of it");
                 return Operand::LeftOut;
             }
             Some(Operand::Empty) | None => return Operand::Empty,
         };
-        // The wall of a hole drilled into red plastic is red.
-        let wall = part.filter(|_| look.is_plain());
-        let others = operands.filter_map(|operand| match operand {
-            Operand::Solid(solid, _) => Some(wall.map_or(solid.clone(), |part| solid.part(part))),
-            Operand::Empty | Operand::LeftOut => None,
-        });
-        let solids: Vec<Solid> = std::iter::once(first).chain(others).collect();
-        Operand::Solid(Solid::combine(BoolOp::Difference, solids), part)
+        let paint = |(i, operand)| match (operand, wall) {
+            (Operand::Solid(tool), Some(part)) if i > 0 => Operand::Solid(tool.part(part)),
+            (operand, _) => operand,
+        };
+        combine(BoolOp::Difference, operands.into_iter().enumerate().map(paint).collect())
     }
 
     fn intersection(&mut self, node: Option<NodeId>, operands: Vec<Operand>) -> Operand {
@@ -328,23 +345,20 @@ enum Step<'a> {
     Done(Option<Operand>),
 }
 
-fn union(operands: Vec<Operand>) -> Operand {
-    combine(BoolOp::Union, operands)
-}
-
 /// Combines the solids among the operands. Without any, it is left out if some operand is.
 fn combine(op: BoolOp, operands: Vec<Operand>) -> Operand {
     let left_out = operands.iter().any(|o| matches!(o, Operand::LeftOut));
-    let mut part = None;
+    let (mut first_part, mut bare) = (None, false);
     let mut solids = Vec::with_capacity(operands.len());
     for operand in operands {
-        if let Operand::Solid(solid, first) = operand {
-            part = part.or(first);
-            solids.push(solid);
+        if let Operand::Solid(made) = operand {
+            first_part = first_part.or(made.first_part);
+            bare |= made.bare;
+            solids.push(made.solid);
         }
     }
     match (solids.is_empty(), left_out) {
-        (false, _) => Operand::Solid(Solid::combine(op, solids), part),
+        (false, _) => Operand::Solid(Made { solid: Solid::combine(op, solids), first_part, bare }),
         (true, true) => Operand::LeftOut,
         (true, false) => Operand::Empty,
     }

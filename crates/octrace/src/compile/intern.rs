@@ -116,8 +116,8 @@ struct Interner<'a> {
     radius: f64,
     /// Faces this close are the same, in scene units.
     tolerance: f64,
-    /// What rounding alone may do.
-    rounding: f64,
+    /// Moves longer than this count as snapping; shorter ones are what long products of matrices do.
+    noteworthy: f64,
     /// Normals of equal planes differ by no more than this, by component.
     normal_tolerance: f64,
     /// Positions of equal surfaces, as far as bins see them, differ by no more than this.
@@ -142,9 +142,10 @@ impl<'a> Interner<'a> {
         let tolerance = rounding.max(snap * size);
         let normal_tolerance = if snap > 0.0 { 1e-5_f64.max(4.0 * snap) } else { 1e-11 };
         let place_tolerance = tolerance + normal_tolerance * size;
+        let noteworthy = rounding.max(1e-10 * size);
         let report = CompileReport { tolerance, ..CompileReport::default() };
         let (bins, center, radius) = (HashMap::new(), extent.center(), size / 2.0);
-        Self { surfaces, bins, center, radius, tolerance, rounding, normal_tolerance, place_tolerance, report }
+        Self { surfaces, bins, center, radius, tolerance, noteworthy, normal_tolerance, place_tolerance, report }
     }
 
     fn face(&mut self, face: &Face) -> SurfaceRef {
@@ -270,7 +271,7 @@ impl<'a> Interner<'a> {
     }
 
     fn note_move(&mut self, moved: f64) {
-        if moved > self.rounding {
+        if moved > self.noteworthy {
             self.report.snapped_surfaces += 1;
         }
         self.report.largest_move = self.report.largest_move.max(moved);

@@ -66,6 +66,16 @@ impl Bounds {
         if self.is_empty() { Vec3::ZERO } else { self.max - self.min }
     }
 
+    /// A bounded box cut in two across its longest edge.
+    pub fn halves(&self) -> [Self; 2] {
+        let size = self.size();
+        let longest = if size.x >= size.y && size.x >= size.z { 0 } else { if size.y >= size.z { 1 } else { 2 } };
+        let (mut low, mut high) = (*self, *self);
+        low.max[longest] = self.center()[longest];
+        high.min[longest] = self.center()[longest];
+        [low, high]
+    }
+
     /// Length of the diagonal; zero for an empty box.
     pub fn diagonal(&self) -> f64 {
         self.size().length()

@@ -18,6 +18,11 @@ const SHORTEST_CHORD: f64 = 1e-9;
 const NET: u32 = 32;
 /// After so many undecided cells a proof is given up.
 const MAX_CELLS: usize = 4096;
+/// From undecided cells the search goes uphill once more, until so many attempts in a row were in vain.
+const PATIENCE: usize = 40;
+/// Directions to try before narrowing one down, and by how many golden sections.
+const BEARINGS: u32 = 16;
+const NARROWINGS: u32 = 14;
 
 /// How far a solid reaches.
 pub(super) struct Extent {
@@ -60,7 +65,8 @@ pub(super) fn extent(body: &impl Body, exec: &Exec) -> Result<Extent, Cancelled>
     for ((axis, sign), found) in sides.into_iter().zip(found) {
         let Found { reached, limit, rays } = found?;
         let end = |b: &mut Bounds, height: f64| match sign < 0.0 {
-            true => b.min[axis] = -height,
+            // Not `-height`, which makes -0.0 of 0.0.
+            true => b.min[axis] = 0.0 - height,
             false => b.max[axis] = height,
         };
         end(&mut extent.confirmed, reached);
@@ -91,9 +97,8 @@ struct Climb<'a, B: Body> {
     /// Heights closer than this are as good as equal.
     resolution: f64,
     shortest_chord: f64,
-    /// The best height so far, and the place across the axis where it was found.
-    reached: f64,
-    place: Vec3,
+    /// The greatest height so far, and the place across the axis where it was found.
+    best: Option<(f64, Vec3)>,
     scratch: B::Scratch,
     chords: Vec<Chord>,
     rays: u64,
@@ -109,8 +114,7 @@ impl<'a, B: Body> Climb<'a, B> {
             sign,
             resolution: RESOLUTION * size,
             shortest_chord: SHORTEST_CHORD * size,
-            reached: f64::NEG_INFINITY,
-            place: room.center(),
+            best: None,
             scratch: B::Scratch::default(),
             chords: Vec::new(),
             rays: 0,
@@ -129,9 +133,11 @@ impl<'a, B: Body> Climb<'a, B> {
                 self.try_at(place);
             }
         }
-        self.follow(step);
+        if let Some((_, place)) = self.best {
+            self.follow(place, step);
+        }
         let limit = self.prove(exec)?;
-        Ok(Found { reached: self.reached, limit, rays: self.rays })
+        Ok(Found { reached: self.reached(), limit, rays: self.rays })
     }
 
     /// The axes across the one to climb along.
@@ -139,53 +145,97 @@ impl<'a, B: Body> Climb<'a, B> {
         [(self.axis + 1) % 3, (self.axis + 2) % 3]
     }
 
-    /// Traces a ray upwards through this place and keeps what it reaches if that is the highest.
-    fn try_at(&mut self, place: Vec3) -> bool {
+    /// The best height so far.
+    fn reached(&self) -> f64 {
+        self.best.map_or(f64::NEG_INFINITY, |b| b.0)
+    }
+
+    /// Traces a ray upwards through this place, and says how high the solid is there.
+    fn try_at(&mut self, place: Vec3) -> Option<f64> {
         let mut origin = place;
         origin[self.axis] = self.room.center()[self.axis];
         let mut direction = Vec3::ZERO;
         direction[self.axis] = self.sign;
         self.body.chords(&Ray { origin, direction }, &mut self.scratch, &mut self.chords);
         self.rays += 1;
-        let solid = self.chords.iter().rfind(|c| c.end - c.start > self.shortest_chord);
-        let Some(chord) = solid else { return false };
-        let height = self.sign * origin[self.axis] + chord.end;
-        if height > self.reached {
-            (self.reached, self.place) = (height, place);
-            return true;
+        let solid = self.chords.iter().rfind(|c| c.end - c.start > self.shortest_chord)?;
+        let height = self.sign * origin[self.axis] + solid.end;
+        if height > self.reached() {
+            self.best = Some((height, place));
         }
-        false
+        Some(height)
     }
 
-    /// Goes uphill from the best place, by steps that shrink where no neighbour is higher. The neighbours tried turn
-    /// from one round to the next, so that a ridge does not hold the search up for long.
-    fn follow(&mut self, mut step: Vec3) {
-        let [u, v] = self.across();
-        let mut turn_deg = 0.0;
-        while self.reached > f64::NEG_INFINITY && step.max_abs() > 0.01 * self.resolution {
-            let before = self.reached;
-            let from = self.place;
-            for neighbour in 0..8 {
-                let (s, c) = sin_cos_deg(turn_deg + 45.0 * f64::from(neighbour));
-                let mut place = from;
-                place[u] += step[u] * c;
-                place[v] += step[v] * s;
-                self.try_at(place);
+    /// Goes uphill from a place, by steps to the highest point of an ellipse around it: longer steps while that leads up,
+    /// shorter ones where it does not. Says whether that beat the greatest height so far.
+    fn follow(&mut self, mut place: Vec3, mut step: Vec3) -> bool {
+        let before = self.reached();
+        let Some(mut height) = self.try_at(place) else { return false };
+        while step.max_abs() > 0.1 * self.resolution {
+            let (found, next) = self.highest_around(place, step);
+            let gain = found - height;
+            if gain > 0.0 {
+                (height, place) = (found, next);
             }
-            turn_deg += 137.5;
             // Creeping along counts as standing still.
-            if self.reached - before <= self.resolution {
-                step = step * 0.6;
+            step = step * if gain > self.resolution { 1.5 } else { 0.4 };
+        }
+        self.reached() > before + self.resolution
+    }
+
+    /// The highest point of an ellipse around a place, and how high it is. It is narrowed down to a small fraction of a
+    /// degree: the way up along the edge of a cliff may be that narrow.
+    fn highest_around(&mut self, center: Vec3, half_axes: Vec3) -> (f64, Vec3) {
+        let [u, v] = self.across();
+        let mut height_at = |angle_deg: f64| {
+            let (s, c) = sin_cos_deg(angle_deg);
+            let mut place = center;
+            place[u] += half_axes[u] * c;
+            place[v] += half_axes[v] * s;
+            (self.try_at(place).unwrap_or(f64::NEG_INFINITY), place)
+        };
+        let higher = |a: (f64, Vec3), b: (f64, Vec3)| if b.0 > a.0 { b } else { a };
+        let pitch_deg = 360.0 / f64::from(BEARINGS);
+        let mut best = height_at(0.0);
+        let mut bearing_deg = 0.0;
+        for i in 1..BEARINGS {
+            let candidate = height_at(f64::from(i) * pitch_deg);
+            if candidate.0 > best.0 {
+                (best, bearing_deg) = (candidate, f64::from(i) * pitch_deg);
             }
         }
+        if best.0 == f64::NEG_INFINITY {
+            return best;
+        }
+        // Golden section; a cliff within the bracket is no obstacle.
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        let (mut low, mut high) = (bearing_deg - pitch_deg, bearing_deg + pitch_deg);
+        let inner = |low: f64, high: f64| (high - golden * (high - low), low + golden * (high - low));
+        let (mut left, mut right) = inner(low, high);
+        let (mut at_left, mut at_right) = (height_at(left), height_at(right));
+        for _ in 0..NARROWINGS {
+            best = higher(higher(best, at_left), at_right);
+            if at_left.0 > at_right.0 {
+                high = right;
+                (right, at_right) = (left, at_left);
+                left = inner(low, high).0;
+                at_left = height_at(left);
+            } else {
+                low = left;
+                (left, at_left) = (right, at_right);
+                right = inner(low, high).1;
+                at_right = height_at(right);
+            }
+        }
+        higher(higher(best, at_left), at_right)
     }
 
     /// Shows that nothing is higher than what was reached, by more than the resolution, or finds it. Answers with a
     /// height that certainly is not exceeded.
     fn prove(&mut self, exec: &Exec) -> Result<f64, Cancelled> {
-        let mut limit = self.reached + self.resolution;
+        let mut limit = f64::NEG_INFINITY;
         let mut undecided = VecDeque::from([self.room]);
-        let mut cells = 0;
+        let (mut cells, mut in_vain) = (0, 0);
         while let Some(cell) = undecided.pop_front() {
             let cell = self.above_reached(cell);
             if cell.is_empty() || self.body.is_outside(&cell) {
@@ -198,22 +248,20 @@ impl<'a, B: Body> Climb<'a, B> {
                 limit = limit.max(self.top(&cell));
                 continue;
             }
-            if self.try_at(cell.center()) {
-                self.follow(size * 0.25);
-                limit = limit.max(self.reached + self.resolution);
+            // There may be many hills, each a little higher than the one before.
+            if in_vain < PATIENCE {
+                in_vain = if self.follow(cell.center(), size * 0.25) { 0 } else { in_vain + 1 };
+            } else {
+                self.try_at(cell.center());
             }
-            let longest = if size.x >= size.y && size.x >= size.z { 0 } else { if size.y >= size.z { 1 } else { 2 } };
-            let (mut low, mut high) = (cell, cell);
-            low.max[longest] = cell.center()[longest];
-            high.min[longest] = cell.center()[longest];
-            undecided.extend([low, high]);
+            undecided.extend(cell.halves());
         }
-        Ok(limit)
+        Ok(limit.max(self.reached() + self.resolution))
     }
 
     /// The part of a cell that is higher than what was reached.
     fn above_reached(&self, mut cell: Bounds) -> Bounds {
-        let floor = self.reached + self.resolution;
+        let floor = self.reached() + self.resolution;
         if self.sign > 0.0 {
             cell.min[self.axis] = cell.min[self.axis].max(floor);
         } else {

@@ -5,6 +5,7 @@
 
 mod body;
 mod extent;
+mod shadow;
 mod volume;
 
 use crate::exec::{Cancelled, Exec};
