@@ -188,7 +188,14 @@ impl<'a> Interner<'a> {
         let side = if n.x.abs() < 0.5 { Vec3::X } else { Vec3::Y };
         let u = n.cross(side).normalized().unwrap_or(side) * self.radius;
         let v = n.cross(u);
-        [middle + u, middle + v, middle - u, middle - v]
+        let exact = n.to_array().iter().position(|c| c.abs() == 1.0);
+        [middle + u, middle + v, middle - u, middle - v].map(|mut corner| {
+            if let Some(axis) = exact {
+                // Rounding shall not move it off its place on the axis.
+                corner[axis] = n[axis] * plane.offset;
+            }
+            corner
+        })
     }
 
     /// The plane put exactly on an axis where that moves no corner by more than the tolerance.
@@ -363,6 +370,16 @@ mod tests {
         let (refs, _) = interned(&[flat, square(0.0, 1e-4, 9.0), square(0.0, 1e-6, 8.0)], 2e-6);
         assert_ne!(refs[0], refs[1]);
         assert_eq!(refs[0], refs[2]);
+    }
+
+    #[test]
+    fn an_endless_plane_on_an_axis_stays_where_it_is() {
+        let plane = Plane { normal: -Vec3::Z, offset: 0.1 };
+        let extent = Bounds::new(Vec3::new(-1.0 / 3.0, -0.7, -0.3), Vec3::new(0.1, 1.0 / 7.0, 2.9));
+        let mut surfaces = Vec::new();
+        let _ = intern(&[Face::Unbounded { plane }], &extent, 0.0, &mut surfaces);
+        let [Surface::Plane(stored)] = surfaces[..] else { unreachable!("one plane") };
+        assert_eq!(stored, Plane { normal: Vec3::Z, offset: -0.1 });
     }
 
     #[test]

@@ -56,7 +56,10 @@ impl Quadric {
         let m = o.cross(d);
         let discriminant = -c0 * a - (m.z * m.z + s * (m.x * m.x + m.y * m.y));
         if discriminant <= 0.0 {
-            return Crossings::none(a < 0.0);
+            // f keeps its sign: that of the direction's own value a as well as that of the origin's value c. Rounding may
+            // part the two, for lines parallel to a cone's generator above all. The clearer one tells.
+            let by_direction = a.abs() * o.dot(o) >= c.abs() * d.dot(d);
+            return Crossings::none(if by_direction { a < 0.0 } else { c < 0.0 });
         }
         let root = discriminant.sqrt();
         let q = if b > 0.0 { -b - root } else { root - b };
@@ -152,6 +155,23 @@ mod tests {
         assert_eq!((along.starts_inside(), along.params()), (true, &[8.5, 9.5][..]));
         let generator = cone.crossings(&Ray::new([1.0, 0.0, 0.0], [1.0, 0.0, 1.0]));
         assert_eq!(generator.params().len(), 1);
+    }
+
+    #[test]
+    fn a_line_beside_a_cone_and_parallel_to_its_side_stays_outside() {
+        // All of these lie in tangent planes: a and b are zero, but for rounding, and c is not.
+        for angle in 0..360 {
+            let (sin, cos) = crate::geom::sin_cos_deg(f64::from(angle));
+            let turn = Affine::rotation_deg(Vec3::new(0.0, 0.0, f64::from(angle)));
+            let cone = Quadric { kind: QuadricKind::Cone, to_local: turn };
+            for beside in [-1.5, 0.7] {
+                let ray = Ray::new([-sin * beside, cos * beside, 0.0], [cos, sin, 1.0]);
+                let crossings = cone.crossings(&ray);
+                assert!(crossings.params().iter().all(|t| t.abs() > 1e6), "{crossings:?}");
+                let here = crossings.params().iter().filter(|&&t| t < 0.0).count() % 2 == 1;
+                assert!(!(crossings.starts_inside() ^ here), "{crossings:?}");
+            }
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Random solids and rays that love coincidence: small integers, shared planes, repeated values.
 #![allow(dead_code, reason = "each test uses its share")]
 
-use octrace::{Ray, Solid, Vec3};
+use octrace::{Polyhedron, Ray, Solid, Vec3};
 use proptest::prelude::*;
 
 /// So many cases, unless the environment variable `PROPTEST_CASES` asks for another number.
@@ -29,10 +29,56 @@ fn angle() -> impl Strategy<Value = f64> {
     prop_oneof![4 => Just(0.0), 2 => Just(90.0), 1 => Just(180.0), 1 => Just(45.0), 1 => Just(30.0), 1 => Just(17.0)]
 }
 
+/// Polyhedra of which the last two are not convex: tetrahedron, octahedron, L-shaped prism, square frame.
+pub fn polyhedra() -> [Solid; 4] {
+    let solid = |points: &[[f64; 3]], faces: &[&[u32]]| {
+        let points = points.iter().map(|&p| Vec3::from(p)).collect();
+        let faces = faces.iter().map(|f| f.to_vec()).collect();
+        Solid::primitive(Polyhedron::new(points, faces).expect("a sound polyhedron"))
+    };
+    let tetrahedron = solid(
+        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]],
+    );
+    let tips =
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let octahedron =
+        solid(&tips, &[&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4], &[1, 0, 5], &[2, 1, 5], &[3, 2, 5], &[0, 3, 5]]);
+    let extruded = |outline: &[[f64; 2]]| -> Vec<[f64; 3]> {
+        [0.0, 1.0].iter().flat_map(|&z| outline.iter().map(move |p| [p[0], p[1], z])).collect()
+    };
+    let prism = solid(
+        &extruded(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]),
+        &[
+            &[5, 4, 3, 2, 1, 0],
+            &[6, 7, 8, 9, 10, 11],
+            &[0, 1, 7, 6],
+            &[1, 2, 8, 7],
+            &[2, 3, 9, 8],
+            &[3, 4, 10, 9],
+            &[4, 5, 11, 10],
+            &[5, 0, 6, 11],
+        ],
+    );
+    let square = |half: f64| [[-half, -half], [half, -half], [half, half], [-half, half]];
+    let frame_points: Vec<[f64; 3]> = [extruded(&square(1.0)), extruded(&square(0.5))].concat();
+    let frame_faces: Vec<Vec<u32>> = (0..4)
+        .flat_map(|i| {
+            let j = (i + 1) % 4;
+            // Outer wall, wall of the hole, bottom, top.
+            [[i, j, j + 4, i + 4], [j + 8, i + 8, i + 12, j + 12], [j, i, i + 8, j + 8], [i + 4, j + 4, j + 12, i + 12]]
+                .map(Vec::from)
+        })
+        .collect();
+    let frame = solid(&frame_points, &frame_faces.iter().map(Vec::as_slice).collect::<Vec<_>>());
+    [tetrahedron, octahedron, prism, frame]
+}
+
 /// A primitive, placed on the lattice.
 pub fn lattice_primitive() -> impl Strategy<Value = Solid> {
     let shape = prop_oneof![
         4 => Just(Solid::block()),
+        1 => prop::sample::select(polyhedra().to_vec()),
         2 => Just(Solid::sphere()),
         3 => Just(Solid::cylinder()),
         1 => Just(Solid::half_space()),
