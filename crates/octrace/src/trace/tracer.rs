@@ -138,9 +138,11 @@ impl Body {
         with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
     }
 
-    /// The spans that the line has far away from everything bounded.
-    fn outer_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
-        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray))
+    /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
+    /// the solid has not.)
+    fn ends_inside(&self, catalog: &Catalog, ray: &Ray) -> bool {
+        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray));
+        outer.last().is_some_and(|span| span.exit.is_none())
     }
 }
 
@@ -233,7 +235,7 @@ impl Tracer {
         match self.accelerated(body, &ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
             ControlFlow::Continue(()) => {
                 // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
-                self.bodies[body].outer_spans(&self.catalog, &ray).iter().any(|s| s.exit.is_none())
+                self.bodies[body].ends_inside(&self.catalog, &ray)
             }
             ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
             ControlFlow::Break(Stop::Leak) => self.bodies[body]
@@ -270,7 +272,10 @@ impl Tracer {
         let spans = if stop.is_break() {
             self.bodies[body].canonical_spans(&self.catalog, ray)
         } else if hits.is_empty() {
-            self.bodies[body].outer_spans(&self.catalog, ray)
+            match self.bodies[body].ends_inside(&self.catalog, ray) {
+                true => vec![Span { enter: None, exit: None }],
+                false => Spans::new(),
+            }
         } else {
             spans_of(&hits)
         };
