@@ -10,15 +10,18 @@ pub(super) enum Expr {
     Nary(Op, Vec<Expr>),
 }
 
+/// An operator of programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Op {
+pub(crate) enum Op {
+    /// Inside where all operands are.
     And,
+    /// Inside where any operand is.
     Or,
 }
 
 impl Op {
     /// The other operator where a complement is pushed through this one (De Morgan).
-    pub fn under(self, negated: bool) -> Self {
+    pub(super) fn under(self, negated: bool) -> Self {
         match (self, negated) {
             (op, false) => op,
             (Op::And, true) => Op::Or,

@@ -7,6 +7,7 @@ mod simplify;
 mod text;
 mod words;
 
+pub(crate) use expr::Op;
 pub use intern::CompileReport;
 pub use lower::{Compiled, compile};
 pub use simplify::{Simplified, Simplifier};

@@ -6,6 +6,7 @@ use crate::model::{Camera, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, defa
 use crate::shade::{Lighting, RayCounts, Whitted};
 use crate::trace::{Counters, Scratch, Tracer};
 use rayon::prelude::*;
+use std::ops::AddAssign;
 
 /// What is seen where nothing is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,20 +90,15 @@ pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Resul
             let start = y as usize * width as usize + left as usize;
             pixels[start..start + row.len()].copy_from_slice(row);
         }
-        stats.add(&tile.stats);
+        stats += tile.stats;
     }
     Ok((Film::new(width, height, pixels), stats))
 }
 
-impl RenderStats {
-    fn add(&mut self, o: &Self) {
-        self.rays.camera += o.rays.camera;
-        self.rays.shadow += o.rays.shadow;
-        self.rays.reflected += o.rays.reflected;
-        self.rays.refracted += o.rays.refracted;
-        self.counters.cells += o.counters.cells;
-        self.counters.surface_tests += o.counters.surface_tests;
-        self.counters.leaks += o.counters.leaks;
+impl AddAssign for RenderStats {
+    fn add_assign(&mut self, o: Self) {
+        self.rays += o.rays;
+        self.counters += o.counters;
     }
 }
 

@@ -8,6 +8,7 @@ mod vector;
 
 pub use bounds::Bounds;
 pub use ray::Ray;
+pub(crate) use span::SpansBuilder;
 pub use span::{Hit, Span, Spans};
 pub use transform::{Affine, sin_cos_deg};
 pub use vector::Vec3;

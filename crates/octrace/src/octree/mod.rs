@@ -98,6 +98,22 @@ pub struct OctreeStats {
     pub surfaces_classified: u64,
 }
 
+impl OctreeStats {
+    /// Both together; the depth is the greater one.
+    pub fn and(self, o: Self) -> Self {
+        Self {
+            branches: self.branches + o.branches,
+            leaves: self.leaves + o.leaves,
+            outside: self.outside + o.outside,
+            inside: self.inside + o.inside,
+            depth: self.depth.max(o.depth),
+            program_words: self.program_words + o.program_words,
+            bytes: self.bytes + o.bytes,
+            surfaces_classified: self.surfaces_classified + o.surfaces_classified,
+        }
+    }
+}
+
 impl Octree {
     /// The cube that is cut up.
     pub fn bounds(&self) -> Bounds {

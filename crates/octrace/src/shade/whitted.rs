@@ -11,6 +11,7 @@
 use crate::geom::{Hit, Ray, Vec3};
 use crate::model::{Light, Material, Rgb, Scene};
 use crate::trace::{Scratch, SurfacePoint, Tracer};
+use std::ops::AddAssign;
 
 /// What lights the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,16 @@ pub struct RayCounts {
     pub reflected: u64,
     /// Refracted.
     pub refracted: u64,
+}
+
+impl AddAssign for RayCounts {
+    fn add_assign(&mut self, o: Self) {
+        let Self { camera, shadow, reflected, refracted } = o;
+        self.camera += camera;
+        self.shadow += shadow;
+        self.reflected += reflected;
+        self.refracted += refracted;
+    }
 }
 
 /// The integrator.

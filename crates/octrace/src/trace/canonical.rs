@@ -3,23 +3,22 @@
 
 use super::combine::combine;
 use super::roots::hit_of;
-use crate::compile::{Catalog, Constant, Word, node_end};
-use crate::geom::{Ray, Span, Spans};
+use crate::compile::{Catalog, Constant, Op, Word, node_end};
+use crate::geom::{Ray, Spans, SpansBuilder};
 
 /// The spans of the whole line of the ray in the program.
-pub(crate) fn spans(catalog: &Catalog, program: &Constant, ray: &Ray) -> Spans {
+pub(super) fn spans(catalog: &Catalog, program: &Constant, ray: &Ray) -> Spans {
     match program {
-        Constant::Everywhere(false) => Spans::new(),
-        Constant::Everywhere(true) => vec![Span { enter: None, exit: None }],
+        Constant::Everywhere(inside) => SpansBuilder::new(*inside).finish(),
         Constant::Words(words) => node_spans(catalog, words, 0, ray),
     }
 }
 
 fn node_spans(catalog: &Catalog, words: &[u32], at: usize, ray: &Ray) -> Spans {
-    let (len, all) = match Word::decode(words[at]) {
-        Word::Literal { .. } => return literal_spans(catalog, words[at], ray),
-        Word::And { len } => (len as usize, true),
-        Word::Or { len } => (len as usize, false),
+    let (op, len) = match Word::decode(words[at]) {
+        Word::Literal { index, negated } => return literal_spans(catalog, words[at], index, negated, ray),
+        Word::And { len } => (Op::And, len as usize),
+        Word::Or { len } => (Op::Or, len as usize),
     };
     let end = at + 1 + len;
     let mut operands = Vec::new();
@@ -28,34 +27,21 @@ fn node_spans(catalog: &Catalog, words: &[u32], at: usize, ray: &Ray) -> Spans {
         operands.push(node_spans(catalog, words, child, ray));
         child = node_end(words, child);
     }
-    combine(all, &operands)
+    combine(op, &operands)
 }
 
-fn literal_spans(catalog: &Catalog, word: u32, ray: &Ray) -> Spans {
-    let Word::Literal { index, negated } = Word::decode(word) else {
-        unreachable!("called for literals only");
-    };
+/// The spans in the literal that `word` is: use `index` of a surface, or what that leaves.
+fn literal_spans(catalog: &Catalog, word: u32, index: u32, negated: bool, ray: &Ray) -> Spans {
     let surface = catalog.literals[index as usize].surface;
     let mut params = Vec::new();
-    let starts_inside = negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut params);
-    let mut spans = Spans::new();
-    let mut enter = None;
-    let mut inside = starts_inside;
+    let mut inside = negated ^ catalog.surfaces[surface as usize].crossings(&catalog.surfaces, ray, &mut params);
+    let mut spans = SpansBuilder::new(inside);
     for together in params.chunk_by(|a, b| a == b) {
-        if together.len() % 2 == 0 {
-            continue;
+        // Crossings at one parameter cancel each other in pairs.
+        if together.len() % 2 == 1 {
+            inside = !inside;
+            spans.cross(hit_of(catalog, word, ray, together[0], inside));
         }
-        let hit = Some(hit_of(catalog, word, ray, together[0], !inside));
-        if inside {
-            spans.push(Span { enter, exit: hit });
-            enter = None;
-        } else {
-            enter = hit;
-        }
-        inside = !inside;
     }
-    if inside {
-        spans.push(Span { enter, exit: None });
-    }
-    spans
+    spans.finish()
 }

@@ -6,78 +6,48 @@
 //! at the operands' values only, and so it says the same of a simplified tree: an operand that simplifying drops is
 //! constant in the cell, so it never changes there.
 
-use crate::geom::{Hit, Span, Spans};
+use crate::compile::Op;
+use crate::geom::{Hit, Spans, SpansBuilder};
 
-/// Combines the span lists of several operands by union (`all == false`) or intersection (`all == true`).
-pub fn combine(all: bool, operands: &[Spans]) -> Spans {
+/// Combines the span lists of several operands by intersection (`And`) or union (`Or`).
+pub(super) fn combine(op: Op, operands: &[Spans]) -> Spans {
     struct Event {
-        t: f64,
         operand: usize,
         hit: Hit,
     }
     let mut events = Vec::new();
     let mut inside = 0;
     for (operand, spans) in operands.iter().enumerate() {
-        for span in spans {
-            match span.enter {
-                Some(hit) => events.push(Event { t: hit.t, operand, hit }),
-                None => inside += 1,
-            }
-            if let Some(hit) = span.exit {
-                events.push(Event { t: hit.t, operand, hit });
-            }
-        }
+        inside += usize::from(spans.first().is_some_and(|span| span.enter.is_none()));
+        let ends = spans.iter().flat_map(|span| [span.enter, span.exit]).flatten();
+        events.extend(ends.map(|hit| Event { operand, hit }));
     }
-    events.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.operand.cmp(&b.operand)));
+    events.sort_by(|a, b| a.hit.t.total_cmp(&b.hit.t).then(a.operand.cmp(&b.operand)));
 
-    let needed = if all { operands.len() } else { 1 };
-    let mut spans = Spans::new();
-    let mut enter = None;
-    for together in events.chunk_by(|a, b| a.t == b.t) {
-        let before = inside >= needed;
+    let needed = match op {
+        Op::And => operands.len(),
+        Op::Or => 1,
+    };
+    let mut before = inside >= needed;
+    let mut spans = SpansBuilder::new(before);
+    for together in events.chunk_by(|a, b| a.hit.t == b.hit.t) {
         for event in together {
             if event.hit.entering { inside += 1 } else { inside -= 1 }
         }
         let after = inside >= needed;
-        if before == after {
-            continue;
+        if before != after {
+            let seen = together.iter().find(|event| event.hit.entering == after);
+            spans.cross(seen.expect("the result changes the way some operand does").hit);
         }
-        let hit = together.iter().find(|e| e.hit.entering == after).map(|e| e.hit);
-        if after {
-            enter = hit;
-        } else {
-            spans.push(Span { enter, exit: hit });
-            enter = None;
-        }
+        before = after;
     }
-    if inside >= needed {
-        spans.push(Span { enter, exit: None });
-    }
-    spans
-}
-
-/// What the ray passes between the spans: the complement. Every end stays the same crossing, entered the other way.
-pub fn complement(spans: &[Span]) -> Spans {
-    let turned = |hit: Option<Hit>| hit.map(|h| Hit { entering: !h.entering, flipped: !h.flipped, ..h });
-    let mut gaps = Spans::new();
-    let mut enter = None;
-    let mut open = true;
-    for span in spans {
-        if span.enter.is_some() {
-            gaps.push(Span { enter, exit: turned(span.enter) });
-        }
-        enter = turned(span.exit);
-        open = span.exit.is_some();
-    }
-    if open {
-        gaps.push(Span { enter, exit: None });
-    }
-    gaps
+    spans.finish()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Span;
 
     fn span(leaf: u32, enter: f64, exit: f64) -> Spans {
         let hit = |t, entering| Some(Hit { t, leaf, surface: leaf, entering, flipped: false });
@@ -88,33 +58,40 @@ mod tests {
         spans.iter().map(|s| (s.enter_t(), s.enter.unwrap().leaf, s.exit_t(), s.exit.unwrap().leaf)).collect()
     }
 
+    /// All of the line but that.
+    fn outside(spans: &[Span]) -> Spans {
+        let ends = spans.iter().flat_map(|span| [span.enter, span.exit]).flatten();
+        let mut gaps = SpansBuilder::new(spans.first().is_none_or(|span| span.enter.is_some()));
+        ends.for_each(|hit| gaps.cross(Hit { entering: !hit.entering, ..hit }));
+        gaps.finish()
+    }
+
     #[test]
     fn touching_spans_become_one() {
-        assert_eq!(ends(&combine(false, &[span(0, 1.0, 2.0), span(1, 2.0, 3.0)])), [(1.0, 0, 3.0, 1)]);
+        assert_eq!(ends(&combine(Op::Or, &[span(0, 1.0, 2.0), span(1, 2.0, 3.0)])), [(1.0, 0, 3.0, 1)]);
     }
 
     #[test]
     fn what_only_touches_has_nothing_in_common() {
-        assert_eq!(combine(true, &[span(0, 1.0, 2.0), span(1, 2.0, 3.0)]), []);
+        assert_eq!(combine(Op::And, &[span(0, 1.0, 2.0), span(1, 2.0, 3.0)]), []);
     }
 
     #[test]
     fn of_coinciding_ends_the_first_operand_is_seen() {
-        assert_eq!(ends(&combine(false, &[span(0, 1.0, 2.0), span(1, 1.0, 2.0)])), [(1.0, 0, 2.0, 0)]);
-        assert_eq!(ends(&combine(true, &[span(0, 1.0, 4.0), span(1, 1.0, 2.0)])), [(1.0, 0, 2.0, 1)]);
+        assert_eq!(ends(&combine(Op::Or, &[span(0, 1.0, 2.0), span(1, 1.0, 2.0)])), [(1.0, 0, 2.0, 0)]);
+        assert_eq!(ends(&combine(Op::And, &[span(0, 1.0, 4.0), span(1, 1.0, 2.0)])), [(1.0, 0, 2.0, 1)]);
     }
 
     #[test]
     fn a_solid_minus_itself_is_nothing() {
         let a = span(0, 1.0, 2.0);
-        assert_eq!(combine(true, &[a.clone(), complement(&a)]), []);
+        assert_eq!(combine(Op::And, &[a.clone(), outside(&a)]), []);
+        assert_eq!(combine(Op::Or, &[a.clone(), outside(&a)]), [Span { enter: None, exit: None }]);
     }
 
     #[test]
-    fn the_complement_of_the_complement_is_the_same() {
-        let a = combine(false, &[span(0, 1.0, 2.0), span(1, 3.0, 4.0)]);
-        assert_eq!(complement(&complement(&a)), a);
-        assert_eq!(complement(&[]).len(), 1);
-        assert_eq!(complement(&complement(&[])), []);
+    fn combining_nothing_is_the_neutral_set() {
+        assert_eq!(combine(Op::Or, &[]), []);
+        assert_eq!(combine(Op::And, &[]), [Span { enter: None, exit: None }]);
     }
 }

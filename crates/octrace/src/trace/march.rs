@@ -1,7 +1,7 @@
 //! Marching along a ray through the cells of an octree, and through what lies outside it.
 
 use super::roots::{Roots, hit_of};
-use super::tracer::Counters;
+use super::stats::Counters;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::{Hit, Ray};
 use crate::octree::{Cell, Octree};

@@ -1,12 +1,17 @@
 //! Rays against programs: the canonical tracer, and the one that goes through the octree.
 
+mod body;
 mod canonical;
 mod combine;
 mod march;
+mod options;
+mod prepared;
 mod report;
 mod roots;
+mod stats;
 mod tracer;
 
-pub use combine::{combine, complement};
+pub use options::{Accel, TracerOptions, UnknownAccel};
 pub use report::{RayReport, VisitedCell};
-pub use tracer::{Accel, Counters, Scratch, SurfacePoint, Tracer, TracerOptions, TracerStats, UnknownAccel};
+pub use stats::{Counters, TracerStats};
+pub use tracer::{Scratch, SurfacePoint, Tracer};

@@ -1,7 +1,10 @@
 //! One ray explained.
 
-use super::SurfacePoint;
-use crate::geom::{Bounds, Hit, Ray, Spans};
+use super::prepared::Prepared;
+use super::{SurfacePoint, Tracer};
+use crate::compile::{Constant, program_text};
+use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
+use crate::octree::Cell;
 use std::fmt;
 
 /// A cell on a ray's way.
@@ -30,6 +33,33 @@ pub struct RayReport {
     pub spans: Spans,
     /// The first hit from `t = 0` on, and what is there.
     pub hit: Option<(Hit, SurfacePoint)>,
+}
+
+impl Tracer {
+    /// Everything that happens to one ray.
+    pub fn explain(&self, ray: &Ray) -> RayReport {
+        let prepared = Prepared::new(ray, &self.bounds());
+        let mut cells = Vec::new();
+        for (number, body) in self.bodies.iter().enumerate() {
+            body.visit_cells(&prepared.ray, prepared.inner(0.0), |step| {
+                let program = match step.cell {
+                    Cell::Leaf(words) => Constant::Words(words.into()),
+                    Cell::Inside => Constant::Everywhere(true),
+                    Cell::Outside => Constant::Everywhere(false),
+                };
+                let half = Vec3::splat(step.half);
+                cells.push(VisitedCell {
+                    body: number,
+                    t_in: prepared.outer(step.t_in),
+                    t_out: prepared.outer(step.t_out),
+                    bounds: Bounds::new(step.center - half, step.center + half),
+                    program: program_text(&self.catalog, &program),
+                });
+            });
+        }
+        let hit = self.first_hit(ray);
+        RayReport { ray: *ray, cells, spans: self.spans(ray), hit: hit.map(|hit| (hit, self.surface_point(ray, &hit))) }
+    }
 }
 
 impl fmt::Display for RayReport {

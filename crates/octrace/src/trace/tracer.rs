@@ -1,102 +1,23 @@
 //! The tracer: a compiled scene that answers rays.
 
-use super::canonical;
+use super::body::Body;
 use super::combine::combine;
-use super::march::{March, Stop};
-use super::report::{RayReport, VisitedCell};
+use super::options::TracerOptions;
+use super::prepared::Prepared;
 use super::roots::Roots;
-use crate::compile::{Catalog, CompileReport, Constant, Program, compile, program_text};
-use crate::exec::{Cancelled, Exec, with_stack_for};
-use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
+use super::stats::Counters;
+use crate::compile::{Catalog, CompileReport, Constant, Op, compile, program_text};
+use crate::exec::{Cancelled, Exec};
+use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
 use crate::model::{PartId, Solid};
-use crate::octree::{BuildOptions, Octree, OctreeStats, build};
-use crate::surface::Side;
-use crate::traverse::TraversalKind;
-use std::fmt;
-use std::ops::ControlFlow;
-use std::str::FromStr;
-
-/// Whether rays are accelerated. It never changes an answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Accel {
-    /// Not at all: the canonical tracer [Comba-Persiano, §2.2].
-    None,
-    /// By the octree-CSG [Comba-Persiano, §3].
-    #[default]
-    Octree,
-}
-
-/// A name that is no acceleration's.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no acceleration is called `{0}`")]
-pub struct UnknownAccel(String);
-
-impl FromStr for Accel {
-    type Err = UnknownAccel;
-
-    fn from_str(name: &str) -> Result<Self, Self::Err> {
-        match name {
-            "none" => Ok(Self::None),
-            "octree" => Ok(Self::Octree),
-            other => Err(UnknownAccel(other.into())),
-        }
-    }
-}
-
-impl fmt::Display for Accel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::None => "none",
-            Self::Octree => "octree",
-        })
-    }
-}
-
-/// How a tracer is built. Of these only [`snap`](Self::snap) changes what is traced.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TracerOptions {
-    /// Whether and how rays are accelerated.
-    pub accel: Accel,
-    /// How the octree is walked.
-    pub traversal: TraversalKind,
-    /// When to stop cutting cells.
-    pub octree: BuildOptions,
-    /// Import tolerance, relative to the size of everything bounded; see [`Scene::snap`](crate::model::Scene::snap).
-    pub snap: f64,
-}
-
-/// Counts of what was done, for statistics and tests.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Octree cells visited.
-    pub cells: u64,
-    /// Words of programs evaluated: crossings of rays with surfaces, nearly.
-    pub surface_tests: u64,
-    /// Rays that had to be traced canonically since cells contradicted each other. Always zero, as far as anyone knows.
-    pub leaks: u64,
-}
+use crate::surface::{CellBox, Side};
 
 /// Scratch memory of a worker, and what it counted.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    roots: Roots,
+    pub(super) roots: Roots,
     /// What was counted since the scratch was made.
     pub counters: Counters,
-}
-
-/// What a tracer is made of, in numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TracerStats {
-    /// Bodies: one, and one more for each transparent material.
-    pub bodies: usize,
-    /// Primitives.
-    pub primitives: usize,
-    /// Different surfaces.
-    pub surfaces: usize,
-    /// Uses of surfaces by primitives.
-    pub literals: usize,
-    /// The octrees, summed up; the depth is that of the deepest.
-    pub octree: Option<OctreeStats>,
 }
 
 /// What is where a ray hits.
@@ -113,37 +34,14 @@ pub struct SurfacePoint {
 /// A compiled solid that answers rays: immutable, shareable between threads.
 ///
 /// A tracer can hold several *bodies* that share space, glass with something inside for example. They are compiled
-/// together, so that coincident faces of different bodies are known to coincide; each keeps its own boundary. Questions
-/// that name no body ask the union of all.
+/// together, so that coincident faces of different bodies are known to coincide; each keeps its own boundary. Of questions
+/// that name no body, hits are those of any body's surface, also inside another body; all others ask the union.
 #[derive(Debug)]
 pub struct Tracer {
-    catalog: Catalog,
-    bodies: Vec<Body>,
-    options: TracerOptions,
+    pub(super) catalog: Catalog,
+    pub(super) bodies: Vec<Body>,
     report: CompileReport,
     bounds: Bounds,
-}
-
-#[derive(Debug)]
-struct Body {
-    program: Program,
-    octree: Option<Octree>,
-    /// How deep the program is nested.
-    nesting: usize,
-}
-
-impl Body {
-    /// The spans of the whole line, without the octree.
-    fn canonical_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
-        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
-    }
-
-    /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
-    /// the solid has not.)
-    fn ends_inside(&self, catalog: &Catalog, ray: &Ray) -> bool {
-        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray));
-        outer.last().is_some_and(|span| span.exit.is_none())
-    }
 }
 
 impl Tracer {
@@ -163,16 +61,12 @@ impl Tracer {
         let compiled = compile(bodies, options.snap);
         let bounds = compiled.bodies.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounds));
         let catalog = compiled.catalog;
-        let build_octree = |program: &Program| match options.accel {
-            Accel::None => Ok(None),
-            Accel::Octree => exec.install(|| build(&catalog, program, &options.octree, exec)),
-        };
         let bodies = compiled
             .bodies
             .into_iter()
-            .map(|program| Ok(Body { octree: build_octree(&program)?, nesting: program.nesting(), program }))
+            .map(|program| Body::build(program, &catalog, options, exec))
             .collect::<Result<_, Cancelled>>()?;
-        Ok(Self { catalog, bodies, options: *options, report: compiled.report, bounds })
+        Ok(Self { catalog, bodies, report: compiled.report, bounds })
     }
 
     /// How many bodies there are.
@@ -180,7 +74,9 @@ impl Tracer {
         self.bodies.len()
     }
 
-    /// Where the ray first crosses the solid's surface, at `t > 0`: into it or, from inside, out of it.
+    /// Where the ray first crosses the solid's surface, at `t > 0`: into it or, from inside, out of it. Not at `t = 0`: a
+    /// ray that starts on a surface leaves it. A ray along a face is on one side of it by the tie rule of half-open
+    /// intervals; one that only touches crosses nothing.
     pub fn first_hit(&self, ray: &Ray) -> Option<Hit> {
         self.first_hit_within(ray, f64::INFINITY, &mut Scratch::default())
     }
@@ -210,16 +106,7 @@ impl Tracer {
     pub fn body_hit(&self, body: usize, ray: &Ray, end: f64, scratch: &mut Scratch) -> Option<Hit> {
         let prepared = Prepared::new(ray, &self.bounds);
         let (start, end) = (prepared.inner(0.0), prepared.inner(end));
-        let hit = match self.accelerated(body, &prepared.ray, (start, end), scratch, ControlFlow::Break) {
-            ControlFlow::Continue(()) => None,
-            ControlFlow::Break(Stop::Done(hit)) => Some(hit),
-            ControlFlow::Break(Stop::Leak) => self.bodies[body]
-                .canonical_spans(&self.catalog, &prepared.ray)
-                .into_iter()
-                .flat_map(|span| [span.enter, span.exit])
-                .flatten()
-                .find(|hit| start < hit.t && hit.t <= end),
-        };
+        let hit = self.bodies[body].first_hit(&self.catalog, &prepared.ray, (start, end), scratch);
         hit.map(|hit| prepared.outer_hit(hit))
     }
 
@@ -232,17 +119,7 @@ impl Tracer {
     pub fn body_contains(&self, body: usize, point: Vec3, scratch: &mut Scratch) -> bool {
         // A direction that no face is likely to contain.
         let ray = Ray { origin: point, direction: Vec3::new(0.5773, 0.5131, 0.6351) };
-        match self.accelerated(body, &ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
-            ControlFlow::Continue(()) => {
-                // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
-                self.bodies[body].ends_inside(&self.catalog, &ray)
-            }
-            ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
-            ControlFlow::Break(Stop::Leak) => self.bodies[body]
-                .canonical_spans(&self.catalog, &ray)
-                .iter()
-                .any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t()),
-        }
+        self.bodies[body].contains_origin(&self.catalog, &ray, scratch)
     }
 
     /// The spans of the ray's whole line in the solid, from minus to plus infinity.
@@ -256,64 +133,13 @@ impl Tracer {
             return self.body_spans(0, ray, scratch);
         }
         let operands: Vec<Spans> = (0..self.bodies.len()).map(|body| self.body_spans(body, ray, scratch)).collect();
-        combine(false, &operands)
+        combine(Op::Or, &operands)
     }
 
     /// The spans of the ray's whole line in one body.
     pub fn body_spans(&self, body: usize, ray: &Ray, scratch: &mut Scratch) -> Spans {
         let prepared = Prepared::new(ray, &self.bounds);
-        let ray = &prepared.ray;
-        let mut hits = Vec::new();
-        let stop: ControlFlow<Stop<()>> =
-            self.accelerated(body, ray, (f64::NEG_INFINITY, f64::INFINITY), scratch, |hit| {
-                hits.push(hit);
-                ControlFlow::Continue(())
-            });
-        let spans = if stop.is_break() {
-            self.bodies[body].canonical_spans(&self.catalog, ray)
-        } else if hits.is_empty() {
-            match self.bodies[body].ends_inside(&self.catalog, ray) {
-                true => vec![Span { enter: None, exit: None }],
-                false => Spans::new(),
-            }
-        } else {
-            spans_of(&hits)
-        };
-        prepared.outer_spans(spans)
-    }
-
-    /// Shows `on_hit` a body's crossings after `start` up to `end`, by the acceleration chosen.
-    fn accelerated<B>(
-        &self,
-        body: usize,
-        ray: &Ray,
-        (start, end): (f64, f64),
-        scratch: &mut Scratch,
-        mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
-    ) -> ControlFlow<Stop<B>> {
-        let Body { program, octree, nesting } = &self.bodies[body];
-        let Scratch { roots, counters } = scratch;
-        if self.options.accel == Accel::None {
-            counters.surface_tests += self.catalog.literals.len() as u64;
-            for span in self.bodies[body].canonical_spans(&self.catalog, ray) {
-                for hit in [span.enter, span.exit].into_iter().flatten() {
-                    if start < hit.t
-                        && hit.t <= end
-                        && let ControlFlow::Break(done) = on_hit(hit)
-                    {
-                        return ControlFlow::Break(Stop::Done(done));
-                    }
-                }
-            }
-            return ControlFlow::Continue(());
-        }
-        let mut march = March::new(&self.catalog, ray, roots, counters);
-        let traversal = self.options.traversal;
-        let stop = with_stack_for(*nesting, || march.along(program, octree.as_ref(), traversal, (start, end), on_hit));
-        if let ControlFlow::Break(Stop::Leak) = stop {
-            counters.leaks += 1;
-        }
-        stop
+        prepared.outer_spans(self.bodies[body].spans(&self.catalog, &prepared.ray, scratch))
     }
 
     /// Position, normal and part at a hit of this ray.
@@ -343,23 +169,10 @@ impl Tracer {
 
     /// Where a box lies with respect to the solid. `Outside` and `Inside` are certain; `Crossing` may be either.
     pub fn classify_box(&self, bounds: &Bounds) -> Side {
-        use crate::compile::{Simplified, Simplifier};
-        use crate::surface::CellBox;
         let cell = CellBox { center: bounds.center(), half: bounds.size() * 0.5 };
         let mut result = Side::Outside;
         for body in &self.bodies {
-            let side = match &body.program.whole {
-                Constant::Everywhere(true) => Side::Inside,
-                Constant::Everywhere(false) => Side::Outside,
-                Constant::Words(words) => {
-                    match Simplifier::default().simplify(&self.catalog, words, &cell, &mut Vec::new()) {
-                        Simplified::Constant(true) => Side::Inside,
-                        Simplified::Constant(false) => Side::Outside,
-                        Simplified::Reduced => Side::Crossing,
-                    }
-                }
-            };
-            match side {
+            match body.classify(&self.catalog, &cell) {
                 Side::Inside => return Side::Inside,
                 Side::Crossing => result = Side::Crossing,
                 Side::Outside => {}
@@ -383,154 +196,8 @@ impl Tracer {
         &self.report
     }
 
-    /// What the tracer is made of, in numbers.
-    pub fn stats(&self) -> TracerStats {
-        let octrees: Vec<OctreeStats> =
-            self.bodies.iter().filter_map(|b| b.octree.as_ref()).map(Octree::stats).collect();
-        let octree = octrees.into_iter().reduce(|a, b| OctreeStats {
-            branches: a.branches + b.branches,
-            leaves: a.leaves + b.leaves,
-            outside: a.outside + b.outside,
-            inside: a.inside + b.inside,
-            depth: a.depth.max(b.depth),
-            program_words: a.program_words + b.program_words,
-            bytes: a.bytes + b.bytes,
-            surfaces_classified: a.surfaces_classified + b.surfaces_classified,
-        });
-        TracerStats {
-            bodies: self.bodies.len(),
-            primitives: self.catalog.leaves.len(),
-            surfaces: self.catalog.surfaces.len(),
-            literals: self.catalog.literals.len(),
-            octree,
-        }
-    }
-
     /// The program of each body for people to read.
     pub fn program_text(&self) -> String {
         self.bodies.iter().map(|body| program_text(&self.catalog, &body.program.whole)).collect()
-    }
-
-    /// Everything that happens to one ray.
-    pub fn explain(&self, ray: &Ray) -> RayReport {
-        let prepared = Prepared::new(ray, &self.bounds);
-        let mut cells = Vec::new();
-        for (body, Body { octree, .. }) in self.bodies.iter().enumerate() {
-            let Some(octree) = octree else { continue };
-            let Some((root_in, root_out)) = crate::traverse::root_interval(octree, &prepared.ray) else { continue };
-            let t_in = root_in.max(prepared.inner(0.0));
-            if t_in > root_out {
-                continue;
-            }
-            let _ = self.options.traversal.walk(octree, &prepared.ray, t_in, root_out, |step| {
-                let program = match step.cell {
-                    crate::octree::Cell::Leaf(words) => program_text(&self.catalog, &Constant::Words(words.into())),
-                    crate::octree::Cell::Inside => "everywhere\n".into(),
-                    crate::octree::Cell::Outside => "nothing\n".into(),
-                };
-                let half = Vec3::splat(step.half);
-                cells.push(VisitedCell {
-                    body,
-                    t_in: prepared.outer(step.t_in),
-                    t_out: prepared.outer(step.t_out),
-                    bounds: Bounds::new(step.center - half, step.center + half),
-                    program,
-                });
-                ControlFlow::<()>::Continue(())
-            });
-        }
-        let hit = self.first_hit(ray);
-        RayReport { ray: *ray, cells, spans: self.spans(ray), hit: hit.map(|hit| (hit, self.surface_point(ray, &hit))) }
-    }
-}
-
-fn spans_of(hits: &[Hit]) -> Spans {
-    let mut spans = Spans::new();
-    let mut enter = None;
-    let mut open = hits.first().is_some_and(|hit| !hit.entering);
-    for &hit in hits {
-        if hit.entering {
-            enter = Some(hit);
-            open = true;
-        } else {
-            spans.push(Span { enter, exit: Some(hit) });
-            enter = None;
-            open = false;
-        }
-    }
-    if open {
-        spans.push(Span { enter, exit: None });
-    }
-    spans
-}
-
-/// A ray made fit for arithmetic, the same way for every acceleration: directions of extreme length are scaled by a power
-/// of two, and a ray that starts very far from the scene is restarted near it.
-struct Prepared {
-    ray: Ray,
-    shift: f64,
-    scale: f64,
-}
-
-impl Prepared {
-    fn new(ray: &Ray, bounds: &Bounds) -> Self {
-        let mut prepared = Self { ray: *ray, shift: 0.0, scale: 1.0 };
-        let largest = ray.direction.max_abs();
-        if !(1e-30..1e30).contains(&largest) {
-            let (_, exponent) = libm::frexp(largest);
-            let exponent = exponent - 1;
-            // In two steps, since the factor itself may overflow.
-            let half = -exponent / 2;
-            let (a, b) = (libm::ldexp(1.0, half), libm::ldexp(1.0, -exponent - half));
-            prepared.ray.direction = ray.direction * a * b;
-            prepared.scale = libm::ldexp(1.0, exponent);
-        }
-        if !bounds.is_empty() {
-            let to_center = bounds.center() - prepared.ray.origin;
-            let size = bounds.size().max_abs();
-            if to_center.max_abs() > 64.0 * size {
-                let d = prepared.ray.direction;
-                let shift = to_center.dot(d) / d.dot(d);
-                let origin = prepared.ray.at(shift);
-                if shift.is_finite() && origin.is_finite() {
-                    prepared.ray.origin = origin;
-                    prepared.shift = shift;
-                }
-            }
-        }
-        prepared
-    }
-
-    /// A parameter of the caller's ray as one of the prepared ray.
-    fn inner(&self, t: f64) -> f64 {
-        t * self.scale - self.shift
-    }
-
-    /// A parameter of the prepared ray as one of the caller's.
-    fn outer(&self, t: f64) -> f64 {
-        (t + self.shift) / self.scale
-    }
-
-    /// Parameters that rounding makes equal on the way leave no span, and no gap, between them.
-    fn outer_spans(&self, spans: Spans) -> Spans {
-        let mut outer: Spans = Spans::with_capacity(spans.len());
-        for span in spans {
-            let span = Span {
-                enter: span.enter.map(|hit| self.outer_hit(hit)),
-                exit: span.exit.map(|hit| self.outer_hit(hit)),
-            };
-            if span.enter_t() >= span.exit_t() {
-                continue;
-            }
-            match outer.last_mut() {
-                Some(last) if last.exit_t() == span.enter_t() => last.exit = span.exit,
-                _ => outer.push(span),
-            }
-        }
-        outer
-    }
-
-    fn outer_hit(&self, hit: Hit) -> Hit {
-        Hit { t: self.outer(hit.t), ..hit }
     }
 }

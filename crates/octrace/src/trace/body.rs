@@ -1,0 +1,160 @@
+//! One body of a tracer: its program, its octree, and what they say of a ray.
+//!
+//! With an octree a ray marches through cells. Should two cells contradict each other (a *leak*, never seen in tests), the
+//! ray is traced canonically and counted: whoever asks gets the right answer in any case.
+
+use super::march::{March, Stop};
+use super::options::{Accel, TracerOptions};
+use super::{Scratch, canonical};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier};
+use crate::exec::{Cancelled, Exec, with_stack_for};
+use crate::geom::{Hit, Ray, Span, Spans, SpansBuilder};
+use crate::octree::{Octree, build};
+use crate::surface::{CellBox, Side};
+use crate::traverse::{Step, TraversalKind, root_interval};
+use std::ops::ControlFlow;
+
+/// A compiled body. Rays come *prepared*, see [`super::prepared`].
+#[derive(Debug)]
+pub(super) struct Body {
+    pub program: Program,
+    /// `None` without acceleration, and where nothing is bounded.
+    pub octree: Option<Octree>,
+    accel: Accel,
+    traversal: TraversalKind,
+    /// How deep the program is nested.
+    nesting: usize,
+}
+
+impl Body {
+    /// # Errors
+    /// If `exec` is cancelled.
+    pub fn build(program: Program, catalog: &Catalog, options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
+        let octree = match options.accel {
+            Accel::None => None,
+            Accel::Octree => exec.install(|| build(catalog, &program, &options.octree, exec))?,
+        };
+        let nesting = program.nesting();
+        Ok(Self { program, octree, accel: options.accel, traversal: options.traversal, nesting })
+    }
+
+    /// The first crossing of the body's surface at `start < t <= end`.
+    pub fn first_hit(
+        &self,
+        catalog: &Catalog,
+        ray: &Ray,
+        (start, end): (f64, f64),
+        scratch: &mut Scratch,
+    ) -> Option<Hit> {
+        match self.crossings(catalog, ray, (start, end), scratch, ControlFlow::Break) {
+            ControlFlow::Continue(()) => None,
+            ControlFlow::Break(Stop::Done(hit)) => Some(hit),
+            ControlFlow::Break(Stop::Leak) => {
+                ends(self.canonical_spans(catalog, ray)).find(|hit| start < hit.t && hit.t <= end)
+            }
+        }
+    }
+
+    /// Whether the ray's origin is inside.
+    pub fn contains_origin(&self, catalog: &Catalog, ray: &Ray, scratch: &mut Scratch) -> bool {
+        match self.crossings(catalog, ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
+            // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
+            ControlFlow::Continue(()) => self.ends_inside(catalog, ray),
+            ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
+            ControlFlow::Break(Stop::Leak) => {
+                self.canonical_spans(catalog, ray).iter().any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t())
+            }
+        }
+    }
+
+    /// The spans of the ray's whole line.
+    pub fn spans(&self, catalog: &Catalog, ray: &Ray, scratch: &mut Scratch) -> Spans {
+        let mut spans: Option<SpansBuilder> = None;
+        let stop: ControlFlow<Stop<()>> =
+            self.crossings(catalog, ray, (f64::NEG_INFINITY, f64::INFINITY), scratch, |hit| {
+                spans.get_or_insert_with(|| SpansBuilder::new(!hit.entering)).cross(hit);
+                ControlFlow::Continue(())
+            });
+        match (stop, spans) {
+            (ControlFlow::Break(_), _) => self.canonical_spans(catalog, ray),
+            (ControlFlow::Continue(()), Some(spans)) => spans.finish(),
+            (ControlFlow::Continue(()), None) if self.ends_inside(catalog, ray) => {
+                vec![Span { enter: None, exit: None }]
+            }
+            (ControlFlow::Continue(()), None) => Spans::new(),
+        }
+    }
+
+    /// The spans of the whole line, without the octree.
+    fn canonical_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
+        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
+    }
+
+    /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
+    /// the solid has not.)
+    fn ends_inside(&self, catalog: &Catalog, ray: &Ray) -> bool {
+        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray));
+        outer.last().is_some_and(|span| span.exit.is_none())
+    }
+
+    /// Shows `on_hit` the crossings after `start` up to `end`, by the acceleration chosen.
+    fn crossings<B>(
+        &self,
+        catalog: &Catalog,
+        ray: &Ray,
+        (start, end): (f64, f64),
+        scratch: &mut Scratch,
+        mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        let Scratch { roots, counters } = scratch;
+        if self.accel == Accel::None {
+            counters.surface_tests += catalog.literals.len() as u64;
+            for hit in ends(self.canonical_spans(catalog, ray)).filter(|hit| start < hit.t && hit.t <= end) {
+                if let ControlFlow::Break(done) = on_hit(hit) {
+                    return ControlFlow::Break(Stop::Done(done));
+                }
+            }
+            return ControlFlow::Continue(());
+        }
+        let mut march = March::new(catalog, ray, roots, counters);
+        let stop = with_stack_for(self.nesting, || {
+            march.along(&self.program, self.octree.as_ref(), self.traversal, (start, end), on_hit)
+        });
+        if let ControlFlow::Break(Stop::Leak) = stop {
+            counters.leaks += 1;
+        }
+        stop
+    }
+
+    /// Shows `visit` the cells that the ray meets from `start` on; none where there is no octree.
+    pub fn visit_cells(&self, ray: &Ray, start: f64, mut visit: impl FnMut(Step<'_>)) {
+        let Some(octree) = &self.octree else { return };
+        let Some((root_in, root_out)) = root_interval(octree, ray) else { return };
+        let t_in = root_in.max(start);
+        if t_in <= root_out {
+            let _ = self.traversal.walk(octree, ray, t_in, root_out, |step| {
+                visit(step);
+                ControlFlow::<()>::Continue(())
+            });
+        }
+    }
+
+    /// Where a box lies with respect to the body; `Crossing` may be either.
+    pub fn classify(&self, catalog: &Catalog, cell: &CellBox) -> Side {
+        let words = match &self.program.whole {
+            Constant::Everywhere(true) => return Side::Inside,
+            Constant::Everywhere(false) => return Side::Outside,
+            Constant::Words(words) => words,
+        };
+        match Simplifier::default().simplify(catalog, words, cell, &mut Vec::new()) {
+            Simplified::Constant(true) => Side::Inside,
+            Simplified::Constant(false) => Side::Outside,
+            Simplified::Reduced => Side::Crossing,
+        }
+    }
+}
+
+/// The ends of spans, in the order of the line.
+fn ends(spans: Spans) -> impl Iterator<Item = Hit> {
+    spans.into_iter().flat_map(|span| [span.enter, span.exit]).flatten()
+}
