@@ -11,7 +11,7 @@ use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
 use crate::model::{PartId, Solid};
 use crate::octree::{BuildOptions, Octree, OctreeStats, build};
 use crate::surface::Side;
-use crate::traverse::TraversalKind;
+use crate::traverse::{Traversal, TraversalKind};
 use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
@@ -127,7 +127,8 @@ pub struct Tracer {
 #[derive(Debug)]
 struct Body {
     program: Program,
-    octree: Option<Octree>,
+    /// The octree, and how it is walked.
+    octree: Option<(Octree, Traversal)>,
     /// How deep the program is nested.
     nesting: usize,
 }
@@ -163,9 +164,16 @@ impl Tracer {
         let compiled = compile(bodies, options.snap);
         let bounds = compiled.bodies.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounds));
         let catalog = compiled.catalog;
+        let max_depth = options.traversal.max_depth();
         let build_octree = |program: &Program| match options.accel {
             Accel::None => Ok(None),
-            Accel::Octree => exec.install(|| build(&catalog, program, &options.octree, exec)),
+            Accel::Octree => exec.install(|| {
+                let octree = build(&catalog, program, &options.octree, max_depth, exec)?;
+                Ok(octree.map(|octree| {
+                    let traversal = Traversal::new(options.traversal, &octree);
+                    (octree, traversal)
+                }))
+            }),
         };
         let bodies = compiled
             .bodies
@@ -308,8 +316,8 @@ impl Tracer {
             return ControlFlow::Continue(());
         }
         let mut march = March::new(&self.catalog, ray, roots, counters);
-        let traversal = self.options.traversal;
-        let stop = with_stack_for(*nesting, || march.along(program, octree.as_ref(), traversal, (start, end), on_hit));
+        let accelerator = octree.as_ref().map(|(octree, traversal)| (octree, traversal));
+        let stop = with_stack_for(*nesting, || march.along(program, accelerator, (start, end), on_hit));
         if let ControlFlow::Break(Stop::Leak) = stop {
             counters.leaks += 1;
         }
@@ -386,7 +394,7 @@ impl Tracer {
     /// What the tracer is made of, in numbers.
     pub fn stats(&self) -> TracerStats {
         let octrees: Vec<OctreeStats> =
-            self.bodies.iter().filter_map(|b| b.octree.as_ref()).map(Octree::stats).collect();
+            self.bodies.iter().filter_map(|b| b.octree.as_ref()).map(|(octree, _)| octree.stats()).collect();
         let octree = octrees.into_iter().reduce(|a, b| OctreeStats {
             branches: a.branches + b.branches,
             leaves: a.leaves + b.leaves,
@@ -416,13 +424,13 @@ impl Tracer {
         let prepared = Prepared::new(ray, &self.bounds);
         let mut cells = Vec::new();
         for (body, Body { octree, .. }) in self.bodies.iter().enumerate() {
-            let Some(octree) = octree else { continue };
+            let Some((octree, traversal)) = octree else { continue };
             let Some((root_in, root_out)) = crate::traverse::root_interval(octree, &prepared.ray) else { continue };
             let t_in = root_in.max(prepared.inner(0.0));
             if t_in > root_out {
                 continue;
             }
-            let _ = self.options.traversal.walk(octree, &prepared.ray, t_in, root_out, |step| {
+            let _ = traversal.walk(octree, &prepared.ray, t_in, root_out, |step| {
                 let program = match step.cell {
                     crate::octree::Cell::Leaf(words) => program_text(&self.catalog, &Constant::Words(words.into())),
                     crate::octree::Cell::Inside => "everywhere\n".into(),
