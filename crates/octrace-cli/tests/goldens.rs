@@ -3,8 +3,9 @@
 //! A missing golden fails. A mismatch leaves the actual picture and the differences in the target folder. After looking at
 //! them, `OCTRACE_BLESS=1` accepts what is there.
 
-use octrace::exec::Exec;
-use octrace::film::{Background, Film, View, render};
+mod pictures;
+
+use octrace::film::Film;
 use octrace::model::frame_all;
 use octrace::octree::BuildOptions;
 use octrace::query::occupied_bounds;
@@ -46,10 +47,7 @@ fn camera(scene: &Scene, tracer: &Tracer, from: From) -> Camera {
         projection: orthographic(height),
     };
     match from {
-        From::Scene => {
-            let perspective = Projection::Perspective { fov_deg: Camera::OPENSCAD_FOV_DEG };
-            scene.camera.unwrap_or_else(|| frame_all(&occupied_bounds(tracer), None, perspective, SIZE_PX))
-        }
+        From::Scene => pictures::default_camera(scene, tracer, SIZE_PX),
         From::Along(direction) => {
             let aim = towards([0.0; 3], direction, 1.0);
             frame_all(&occupied_bounds(tracer), Some(&aim), orthographic(1.0), SIZE_PX)
@@ -59,20 +57,7 @@ fn camera(scene: &Scene, tracer: &Tracer, from: From) -> Camera {
 }
 
 fn film(scene: &Scene, from: From, options: &TracerOptions, threads: usize) -> Film {
-    let exec = Exec::with_threads(threads);
-    let options = TracerOptions { snap: scene.snap, ..*options };
-    let tracer = Tracer::build_bodies(&scene.bodies().solids, &options, &exec).expect("nobody cancels");
-    let view = View {
-        camera: camera(scene, &tracer, from),
-        width_px: SIZE_PX.0,
-        height_px: SIZE_PX.1,
-        samples: 1,
-        max_bounces: 6,
-        background: Background::Scene,
-    };
-    let (film, stats) = render(scene, &tracer, &view, &exec).expect("nobody cancels");
-    assert_eq!(stats.counters.leaks, 0, "cells contradict each other");
-    film
+    pictures::film(scene, SIZE_PX, options, threads, |tracer| camera(scene, tracer, from))
 }
 
 fn check(name: &str, file: &str, from: From) {
@@ -83,7 +68,7 @@ fn check(name: &str, file: &str, from: From) {
         let octree = BuildOptions { leaf_surfaces, depth };
         let options = TracerOptions { octree, ..TracerOptions::default() };
         let accelerated = film(&scene, from, &options, threads);
-        let differing = std::iter::zip(accelerated.pixels(), expected.pixels()).filter(|(a, b)| a != b).count();
+        let differing = pictures::differing(&accelerated, &expected);
         assert_eq!(differing, 0, "{name}: p {leaf_surfaces}, depth {depth:?}, {threads} threads: pixels differ");
     }
     compare(name, &expected);

@@ -4,6 +4,10 @@ use super::{Catalog, Constant, Word};
 use crate::surface::Surface;
 use std::fmt::Write;
 
+/// Nodes deeper than this are not indented any further, but numbered: else the text of a deep program would grow as the
+/// square of its depth.
+const MOST_INDENTED: usize = 40;
+
 /// The program, a node a line, indented by depth.
 pub fn program_text(catalog: &Catalog, program: &Constant) -> String {
     let words = match program {
@@ -17,7 +21,9 @@ pub fn program_text(catalog: &Catalog, program: &Constant) -> String {
         while open.last().is_some_and(|&end| end <= at) {
             open.pop();
         }
-        let indent = 2 * open.len();
+        let depth = open.len();
+        let indent = 2 * depth.min(MOST_INDENTED);
+        let number = if depth > MOST_INDENTED { format!("{depth}: ") } else { String::new() };
         let line = match Word::decode(word) {
             Word::And { len } => {
                 open.push(at + 1 + len as usize);
@@ -34,7 +40,7 @@ pub fn program_text(catalog: &Catalog, program: &Constant) -> String {
                 format!("{sign} s{} ({surface}), leaf {}", literal.surface, literal.leaf)
             }
         };
-        let _ = writeln!(text, "{:indent$}{line}", "");
+        let _ = writeln!(text, "{:indent$}{number}{line}", "");
     }
     text
 }

@@ -26,13 +26,14 @@ impl BuildOptions {
     /// The deepest octree that can be asked for; cells must stay large compared to their margin.
     pub const MAX_DEPTH: u32 = 20;
 
-    fn depth_for(&self, literals: usize) -> u32 {
+    fn depth_for(&self, literals: usize, max_depth: u32) -> u32 {
         let by_size = ((literals.max(1) as f64).log2() / 3.0).ceil() as u32 + 3;
-        self.depth.unwrap_or(by_size).min(Self::MAX_DEPTH)
+        self.depth.unwrap_or(by_size).min(max_depth)
     }
 }
 
-/// Builds the octree of a body; `None` where nothing in it is bounded.
+/// Builds the octree of a body, no deeper than `max_depth` (at most [`BuildOptions::MAX_DEPTH`]); `None` where nothing in it
+/// is bounded.
 ///
 /// # Errors
 /// If `exec` is cancelled.
@@ -40,6 +41,7 @@ pub fn build(
     catalog: &Catalog,
     program: &Program,
     options: &BuildOptions,
+    max_depth: u32,
     exec: &Exec,
 ) -> Result<Option<Octree>, Cancelled> {
     let bounds = program.bounds;
@@ -50,13 +52,14 @@ pub fn build(
     let largest = bounds.size().max_abs();
     let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
     // Faces love round numbers. A cube of an odd size in an odd place keeps cell walls off them.
-    let half = (0.5 * 1.0737 * largest).max(farthest * 1e-9).max(f64::MIN_POSITIVE * 1e30);
+    let half = short((0.5 * 1.0737 * largest).max(farthest * 1e-9).max(f64::MIN_POSITIVE * 1e30));
     let center = bounds.center() + Vec3::new(0.0137, 0.0113, 0.0127) * half;
+    let center = Vec3::from(center.to_array().map(|c| (c / half * 1024.0).round() / 1024.0 * half));
     // Hits are computed to some 1e-14 of the distances involved; the margin leaves plenty.
     let margin = (1e-8 * half).max(1e-12 * farthest);
 
     let literals = words.iter().filter(|&&w| matches!(Word::decode(w), Word::Literal { .. })).count();
-    let depth = options.depth_for(literals);
+    let depth = options.depth_for(literals, max_depth);
     let mut octree = Octree {
         center,
         half,
@@ -86,6 +89,13 @@ pub fn build(
     Ok(Some(octree))
 }
 
+/// The number rounded up to eight binary digits. With few digits in the root's place and size, the planes of all cells are
+/// computed without rounding, whatever the way (as long as the root is not extremely far from the origin).
+fn short(v: f64) -> f64 {
+    let (fraction, exponent) = libm::frexp(v);
+    libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
+}
+
 /// Progress is counted in cells of this level.
 const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
@@ -113,6 +123,17 @@ impl Subtree {
             depth: 0,
             classified: 0,
         }
+    }
+
+    /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
+    fn join(&mut self, index: usize) -> CellWord {
+        let children = self.branches[index];
+        let uniform = children[0] == CellWord::OUTSIDE || children[0] == CellWord::INSIDE;
+        if uniform && index + 1 == self.branches.len() && children.iter().all(|&child| child == children[0]) {
+            self.branches.pop();
+            return children[0];
+        }
+        CellWord::branch(index as u32)
     }
 
     fn intern(&mut self, program: &[u32]) -> CellWord {
@@ -200,7 +221,7 @@ impl Builder<'_> {
             let word = tree.adopt(child?);
             tree.branches[index][octant] = word;
         }
-        tree.root = CellWord::branch(index as u32);
+        tree.root = tree.join(index);
         Ok(tree)
     }
 
@@ -249,7 +270,7 @@ impl Builder<'_> {
         if level == PROGRESS_LEVEL {
             self.exec.progress.advance(1);
         }
-        Ok(CellWord::branch(index as u32))
+        Ok(tree.join(index))
     }
 
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.

@@ -61,7 +61,7 @@ impl CellWord {
     }
 }
 
-/// An octree over a cube. Child `i` of a branch is on the high side in x, y, z where bit 0, 1, 2 of `i` is set.
+/// An octree over a cube. A branch has children of different kinds: eight empty or eight full ones are joined. Child `i` of a branch is on the high side in x, y, z where bit 0, 1, 2 of `i` is set.
 ///
 /// Programs of leaves hold a little beyond their cells, by [`margin`](Self::margin): that covers every rounding in the
 /// position of a hit.
@@ -119,6 +119,11 @@ impl Octree {
     pub fn bounds(&self) -> Bounds {
         let half = Vec3::splat(self.half);
         Bounds::new(self.center - half, self.center + half)
+    }
+
+    /// Levels below the root.
+    pub fn depth(&self) -> u32 {
+        self.depth
     }
 
     /// By how much the programs of cells hold beyond them, in scene units.

@@ -8,20 +8,19 @@ use super::options::{Accel, TracerOptions};
 use super::{Scratch, canonical};
 use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier};
 use crate::exec::{Cancelled, Exec, with_stack_for};
-use crate::geom::{Hit, Ray, Spans, SpansBuilder};
+use crate::geom::{Hit, Ray, Span, Spans, SpansBuilder};
 use crate::octree::{Octree, build};
 use crate::surface::{CellBox, Side};
-use crate::traverse::{Step, TraversalKind, root_interval};
+use crate::traverse::{Step, Traversal, root_interval};
 use std::ops::ControlFlow;
 
 /// A compiled body. Rays come *prepared*, see [`super::prepared`].
 #[derive(Debug)]
 pub(super) struct Body {
     pub program: Program,
-    /// `None` without acceleration, and where nothing is bounded.
-    pub octree: Option<Octree>,
+    /// The octree, and how it is walked; `None` without acceleration, and where nothing is bounded.
+    octree: Option<(Octree, Traversal)>,
     accel: Accel,
-    traversal: TraversalKind,
     /// How deep the program is nested.
     nesting: usize,
 }
@@ -32,10 +31,21 @@ impl Body {
     pub fn build(program: Program, catalog: &Catalog, options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
         let octree = match options.accel {
             Accel::None => None,
-            Accel::Octree => exec.install(|| build(catalog, &program, &options.octree, exec))?,
+            Accel::Octree => exec.install(|| {
+                let octree = build(catalog, &program, &options.octree, options.traversal.max_depth(), exec)?;
+                Ok(octree.map(|octree| {
+                    let traversal = Traversal::new(options.traversal, &octree);
+                    (octree, traversal)
+                }))
+            })?,
         };
         let nesting = program.nesting();
-        Ok(Self { program, octree, accel: options.accel, traversal: options.traversal, nesting })
+        Ok(Self { program, octree, accel: options.accel, nesting })
+    }
+
+    /// The octree, if there is one.
+    pub fn octree(&self) -> Option<&Octree> {
+        self.octree.as_ref().map(|(octree, _)| octree)
     }
 
     /// The first crossing of the body's surface at `start < t <= end`.
@@ -59,7 +69,7 @@ impl Body {
     pub fn contains_origin(&self, catalog: &Catalog, ray: &Ray, scratch: &mut Scratch) -> bool {
         match self.crossings(catalog, ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
             // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
-            ControlFlow::Continue(()) => self.outer_spans(catalog, ray).iter().any(|span| span.exit.is_none()),
+            ControlFlow::Continue(()) => self.ends_inside(catalog, ray),
             ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
             ControlFlow::Break(Stop::Leak) => {
                 self.canonical_spans(catalog, ray).iter().any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t())
@@ -78,7 +88,10 @@ impl Body {
         match (stop, spans) {
             (ControlFlow::Break(_), _) => self.canonical_spans(catalog, ray),
             (ControlFlow::Continue(()), Some(spans)) => spans.finish(),
-            (ControlFlow::Continue(()), None) => self.outer_spans(catalog, ray),
+            (ControlFlow::Continue(()), None) if self.ends_inside(catalog, ray) => {
+                vec![Span { enter: None, exit: None }]
+            }
+            (ControlFlow::Continue(()), None) => Spans::new(),
         }
     }
 
@@ -87,9 +100,11 @@ impl Body {
         with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
     }
 
-    /// The spans that the line has far away from everything bounded.
-    fn outer_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
-        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray))
+    /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
+    /// the solid has not.)
+    fn ends_inside(&self, catalog: &Catalog, ray: &Ray) -> bool {
+        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray));
+        outer.last().is_some_and(|span| span.exit.is_none())
     }
 
     /// Shows `on_hit` the crossings after `start` up to `end`, by the acceleration chosen.
@@ -113,7 +128,8 @@ impl Body {
         }
         let mut march = March::new(catalog, ray, roots, counters);
         let stop = with_stack_for(self.nesting, || {
-            march.along(&self.program, self.octree.as_ref(), self.traversal, (start, end), on_hit)
+            let accelerator = self.octree.as_ref().map(|(octree, traversal)| (octree, traversal));
+            march.along(&self.program, accelerator, (start, end), on_hit)
         });
         if let ControlFlow::Break(Stop::Leak) = stop {
             counters.leaks += 1;
@@ -123,11 +139,11 @@ impl Body {
 
     /// Shows `visit` the cells that the ray meets from `start` on; none where there is no octree.
     pub fn visit_cells(&self, ray: &Ray, start: f64, mut visit: impl FnMut(Step<'_>)) {
-        let Some(octree) = &self.octree else { return };
+        let Some((octree, traversal)) = &self.octree else { return };
         let Some((root_in, root_out)) = root_interval(octree, ray) else { return };
         let t_in = root_in.max(start);
         if t_in <= root_out {
-            let _ = self.traversal.walk(octree, ray, t_in, root_out, |step| {
+            let _ = traversal.walk(octree, ray, t_in, root_out, |step| {
                 visit(step);
                 ControlFlow::<()>::Continue(())
             });

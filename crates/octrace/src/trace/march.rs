@@ -5,7 +5,7 @@ use super::stats::Counters;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::{Hit, Ray};
 use crate::octree::{Cell, Octree};
-use crate::traverse::{Step, TraversalKind, root_interval};
+use crate::traverse::{Step, Traversal, root_interval};
 use std::ops::ControlFlow;
 
 /// Why a march ended before its end.
@@ -36,13 +36,12 @@ impl<'a> March<'a> {
     pub fn along<B>(
         &mut self,
         program: &Program,
-        octree: Option<&Octree>,
-        traversal: TraversalKind,
+        accelerator: Option<(&Octree, &Traversal)>,
         (start, end): (f64, f64),
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
-        let interval = octree.and_then(|octree| Some((octree, root_interval(octree, self.ray)?)));
-        let Some((octree, (root_in, root_out))) = interval else {
+        let interval = accelerator.and_then(|(octree, walk)| Some((octree, walk, root_interval(octree, self.ray)?)));
+        let Some((octree, traversal, (root_in, root_out))) = interval else {
             return self.constant(&program.outer, start, end, &mut on_hit);
         };
         let (t_in, t_out) = (root_in.max(start), root_out.min(end));

@@ -1,6 +1,7 @@
 //! What tracing took and what a tracer is made of, in numbers.
 
 use super::Tracer;
+use super::body::Body;
 use crate::octree::{Octree, OctreeStats};
 use std::ops::AddAssign;
 
@@ -42,7 +43,7 @@ pub struct TracerStats {
 impl Tracer {
     /// What the tracer is made of, in numbers.
     pub fn stats(&self) -> TracerStats {
-        let octrees = self.bodies.iter().filter_map(|body| body.octree.as_ref()).map(Octree::stats);
+        let octrees = self.bodies.iter().filter_map(Body::octree).map(Octree::stats);
         TracerStats {
             bodies: self.bodies.len(),
             primitives: self.catalog.leaves.len(),

@@ -1,9 +1,20 @@
-//! Ways to walk an octree along a ray. A traversal yields cells in order and knows nothing of primitives.
+//! Ways to walk an octree along a ray [Comba-Persiano, §4]. A traversal yields cells in order and knows nothing of
+//! primitives.
+//!
+//! Whatever the way, the parameter intervals of the cells tile the ray: each starts with the number with which the last one
+//! ended. Which cell a ray is in near a corner may be told differently by different traversals; cells are classified with
+//! a margin that makes this harmless.
 
+mod bresenham;
+mod fujimoto;
+mod glassner;
+mod lattice;
 mod parametric;
+mod samet;
+mod wyvill_kunii;
 
 use crate::geom::{Ray, Vec3};
-use crate::octree::{Cell, Octree};
+use crate::octree::{Cell, CellWord, Kind, Octree};
 use std::fmt;
 use std::ops::ControlFlow;
 use std::str::FromStr;
@@ -29,31 +40,42 @@ pub enum TraversalKind {
     /// Top down by the parameters of the cells' middle planes, front to back.
     #[default]
     Parametric,
+    /// Leaves in a hash table by their linear code; the next cell by looking up a point beyond the exit face
+    /// [Glassner 1984].
+    Glassner,
+    /// A pointer tree; the next cell by descending from the root [Wyvill-Kunii-Shirai 1986].
+    WyvillKunii,
+    /// The complete octree as a regular grid in a table addressed by the linear code; neighbours by arithmetic on the code
+    /// [Fujimoto 1986; Gargantini 1982].
+    Fujimoto,
+    /// Neighbours by ascending to the common ancestor and descending mirrored [Samet 1982].
+    Samet,
+    /// The paper's own: Bresenham's line on cells of different size, in integers [Comba-Persiano, §4.2].
+    Bresenham,
 }
 
 impl TraversalKind {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::Parametric];
+    pub const ALL: [Self; 6] =
+        [Self::Parametric, Self::Glassner, Self::WyvillKunii, Self::Fujimoto, Self::Samet, Self::Bresenham];
 
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Parametric => "parametric",
+            Self::Glassner => "glassner",
+            Self::WyvillKunii => "wyvill-kunii",
+            Self::Fujimoto => "fujimoto",
+            Self::Samet => "samet",
+            Self::Bresenham => "bresenham",
         }
     }
 
-    /// Shows `visit` the cells that the ray meets between `t_in` and `t_out`, in order, until it breaks off. The
-    /// intervals of the cells tile `[t_in, t_out]`; both must lie where the ray is in the root cube.
-    pub fn walk<B>(
-        self,
-        octree: &Octree,
-        ray: &Ray,
-        t_in: f64,
-        t_out: f64,
-        visit: impl FnMut(Step<'_>) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
+    /// The deepest octree that it can walk.
+    pub const fn max_depth(self) -> u32 {
         match self {
-            Self::Parametric => parametric::walk(octree, ray, t_in, t_out, visit),
+            Self::Fujimoto => fujimoto::MAX_DEPTH,
+            _ => crate::octree::BuildOptions::MAX_DEPTH,
         }
     }
 }
@@ -74,6 +96,68 @@ impl FromStr for TraversalKind {
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
         Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| UnknownTraversal(name.into()))
+    }
+}
+
+/// A way to walk one octree, with the tables that it needs beside the tree.
+#[derive(Clone, Debug)]
+pub struct Traversal(Tables);
+
+#[derive(Clone, Debug)]
+enum Tables {
+    Parametric,
+    Glassner(glassner::LinearOctree),
+    WyvillKunii,
+    Fujimoto(fujimoto::Grid),
+    Samet(samet::Parents),
+    Bresenham(samet::Parents),
+}
+
+impl Traversal {
+    /// Makes the tables that this traversal needs.
+    ///
+    /// # Panics
+    /// If the octree is deeper than [`TraversalKind::max_depth`].
+    pub fn new(kind: TraversalKind, octree: &Octree) -> Self {
+        Self(match kind {
+            TraversalKind::Parametric => Tables::Parametric,
+            TraversalKind::Glassner => Tables::Glassner(glassner::LinearOctree::new(octree)),
+            TraversalKind::WyvillKunii => Tables::WyvillKunii,
+            TraversalKind::Fujimoto => Tables::Fujimoto(fujimoto::Grid::new(octree)),
+            TraversalKind::Samet => Tables::Samet(samet::Parents::new(octree)),
+            TraversalKind::Bresenham => Tables::Bresenham(samet::Parents::new(octree)),
+        })
+    }
+
+    /// Shows `visit` the cells of the octree, which must be the one that the tables were made for, that the ray meets
+    /// between `t_in` and `t_out`, in order, until it breaks off. The intervals of the cells tile `[t_in, t_out]`; both
+    /// must lie where the ray is in the root cube.
+    pub fn walk<B>(
+        &self,
+        octree: &Octree,
+        ray: &Ray,
+        t_in: f64,
+        t_out: f64,
+        visit: impl FnMut(Step<'_>) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        match &self.0 {
+            Tables::Parametric => parametric::walk(octree, ray, t_in, t_out, visit),
+            Tables::Glassner(linear) => glassner::walk(linear, octree, ray, t_in, t_out, visit),
+            Tables::WyvillKunii => wyvill_kunii::walk(octree, ray, t_in, t_out, visit),
+            Tables::Fujimoto(grid) => fujimoto::walk(grid, octree, ray, t_in, t_out, visit),
+            Tables::Samet(parents) => samet::walk(parents, octree, ray, t_in, t_out, visit),
+            Tables::Bresenham(parents) => bresenham::walk(parents, octree, ray, t_in, t_out, visit),
+        }
+    }
+
+    /// Memory of the tables beside the tree, in bytes.
+    pub fn bytes(&self) -> usize {
+        match &self.0 {
+            Tables::Parametric | Tables::WyvillKunii => 0,
+            Tables::Glassner(linear) => linear.bytes(),
+            Tables::Fujimoto(grid) => grid.bytes(),
+            Tables::Samet(parents) | Tables::Bresenham(parents) => parents.bytes(),
+        }
     }
 }
 
@@ -100,4 +184,49 @@ pub fn root_interval(octree: &Octree, ray: &Ray) -> Option<(f64, f64)> {
 /// Whether a direction part is too small to matter: no ray gets anywhere along it.
 fn is_parallel(d: f64) -> bool {
     d.abs() < 1e-290
+}
+
+/// What a word that is no branch stands for.
+fn cell_of(octree: &Octree, word: CellWord) -> Cell<'_> {
+    match word.kind() {
+        Kind::Inside => Cell::Inside,
+        Kind::Leaf(program) => Cell::Leaf(octree.program(program)),
+        Kind::Outside | Kind::Branch(_) => Cell::Outside,
+    }
+}
+
+/// Where the ray passes the plane at `height` across `axis`; infinite, with the sign that puts it on the right side, where
+/// it never does.
+#[inline]
+fn plane_t(ray: &Ray, axis: usize, height: f64) -> f64 {
+    let (o, d) = (ray.origin[axis], ray.direction[axis]);
+    if is_parallel(d) { if o < height { f64::INFINITY } else { f64::NEG_INFINITY } } else { (height - o) / d }
+}
+
+/// The side of a cell on which the ray leaves it: where, and across which axis.
+#[inline]
+fn exit(ray: &Ray, center: Vec3, half: f64) -> (f64, usize) {
+    let mut first = (f64::INFINITY, 0);
+    for axis in 0..3 {
+        let d = ray.direction[axis];
+        if is_parallel(d) {
+            continue;
+        }
+        let face = if d > 0.0 { center[axis] + half } else { center[axis] - half };
+        let t = (face - ray.origin[axis]) / d;
+        if t < first.0 {
+            first = (t, axis);
+        }
+    }
+    first
+}
+
+/// The child of the branch about `center` in which the ray is from `t` on.
+#[inline]
+fn octant_at(ray: &Ray, center: Vec3, t: f64) -> usize {
+    (0..3).fold(0, |octant, axis| {
+        let passed = t >= plane_t(ray, axis, center[axis]);
+        let downwards = ray.direction[axis] < 0.0 && !is_parallel(ray.direction[axis]);
+        octant | usize::from(passed != downwards) << axis
+    })
 }

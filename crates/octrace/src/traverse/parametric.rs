@@ -3,9 +3,9 @@
 //! All that is ever compared are parameters, and a child's interval ends with the very number with which the next one's
 //! begins. So the intervals tile the ray by construction, whatever rounding does to the planes.
 
-use super::{Step, is_parallel};
+use super::{Step, cell_of, octant_at, plane_t};
 use crate::geom::{Ray, Vec3};
-use crate::octree::{Cell, Kind, Octree};
+use crate::octree::{Kind, Octree};
 use std::ops::ControlFlow;
 
 pub(super) fn walk<B>(
@@ -19,24 +19,20 @@ pub(super) fn walk<B>(
     let mut stack = Vec::with_capacity(64);
     stack.push((octree.root, octree.center, octree.half, t_in, t_out));
     while let Some((word, center, half, t_in, t_out)) = stack.pop() {
-        let cell = match word.kind() {
-            Kind::Outside => Cell::Outside,
-            Kind::Inside => Cell::Inside,
-            Kind::Leaf(program) => Cell::Leaf(octree.program(program)),
-            Kind::Branch(index) => {
-                let children = &octree.branches[index as usize];
-                let child_half = half / 2.0;
-                let (cuts, count) = cuts(ray, center, t_in, t_out);
-                for i in (0..=count).rev() {
-                    let start = if i == 0 { t_in } else { cuts[i - 1] };
-                    let end = if i == count { t_out } else { cuts[i] };
-                    let octant = octant_at(ray, center, start);
-                    let child_center = Octree::child_center(center, child_half, octant);
-                    stack.push((children[octant], child_center, child_half, start, end));
-                }
-                continue;
+        if let Kind::Branch(index) = word.kind() {
+            let children = &octree.branches[index as usize];
+            let child_half = half / 2.0;
+            let (cuts, count) = cuts(ray, center, t_in, t_out);
+            for i in (0..=count).rev() {
+                let start = if i == 0 { t_in } else { cuts[i - 1] };
+                let end = if i == count { t_out } else { cuts[i] };
+                let octant = octant_at(ray, center, start);
+                let child_center = Octree::child_center(center, child_half, octant);
+                stack.push((children[octant], child_center, child_half, start, end));
             }
-        };
+            continue;
+        }
+        let cell = cell_of(octree, word);
         visit(Step { cell, t_in, t_out, center, half })?;
     }
     ControlFlow::Continue(())
@@ -47,7 +43,7 @@ fn cuts(ray: &Ray, center: Vec3, t_in: f64, t_out: f64) -> ([f64; 3], usize) {
     let mut cuts = [0.0; 3];
     let mut count = 0;
     for axis in 0..3 {
-        let t = middle(ray, center, axis);
+        let t = plane_t(ray, axis, center[axis]);
         if !(t_in < t && t < t_out) {
             continue;
         }
@@ -60,24 +56,4 @@ fn cuts(ray: &Ray, center: Vec3, t_in: f64, t_out: f64) -> ([f64; 3], usize) {
         count += 1;
     }
     (cuts, count)
-}
-
-/// Where the ray passes the middle plane; infinite, with the sign that puts it on the right side, where it never does.
-#[inline]
-fn middle(ray: &Ray, center: Vec3, axis: usize) -> f64 {
-    let (o, d) = (ray.origin[axis], ray.direction[axis]);
-    if is_parallel(d) {
-        if o < center[axis] { f64::INFINITY } else { f64::NEG_INFINITY }
-    } else {
-        (center[axis] - o) / d
-    }
-}
-
-/// The child in which the ray is from `t` on.
-fn octant_at(ray: &Ray, center: Vec3, t: f64) -> usize {
-    (0..3).fold(0, |octant, axis| {
-        let passed = t >= middle(ray, center, axis);
-        let downwards = ray.direction[axis] < 0.0 && !is_parallel(ray.direction[axis]);
-        octant | usize::from(passed != downwards) << axis
-    })
 }

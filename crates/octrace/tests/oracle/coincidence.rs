@@ -109,6 +109,16 @@ fn along_a_shared_wall() {
     check(&solid, [1.0, -4.0, -4.0], [0.0, 1.0, 1.0], &[(4.0, 5.0)]);
 }
 
+/// Of a wedge that ends in a ball, a ray through the ball's middle meets nothing that the ball has not swallowed.
+#[test]
+fn a_sphere_that_swallows_the_tip_of_a_wedge() {
+    let wedge = Solid::half_space() - Solid::half_space().rotate([0.0, 45.0, 0.0]).translate([0.0, 0.0, 1.0]);
+    let solid = wedge - Solid::sphere().scale([2.0, 2.0, 2.0]);
+    check(&solid, [0.0, 0.0, -5.0], [0.0, 0.0, 1.0], &[]);
+    check(&solid, [0.0, 0.0, 0.0], [0.0, 0.0, -1.0], &[]);
+    check(&(Solid::half_space() + solid), [0.0, 0.0, -5.0], [0.0, 0.0, 1.0], &[(5.0, f64::INFINITY)]);
+}
+
 /// A ball on a floor.
 #[test]
 fn a_sphere_that_touches_a_plane() {

@@ -4,6 +4,7 @@
 mod coincidence;
 #[path = "../common/mod.rs"]
 mod common;
+mod deep;
 
 mod lattice_boxes;
 mod twin;

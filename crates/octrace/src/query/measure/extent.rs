@@ -9,6 +9,7 @@ use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Ray, Vec3, sin_cos_deg};
 use rayon::prelude::*;
 use std::collections::VecDeque;
+use std::rc::Rc;
 
 /// What is not closer than this to the truth, relative to the diagonal of the first box, is looked at again.
 const RESOLUTION: f64 = 1e-7;
@@ -234,13 +235,14 @@ impl<'a, B: Body> Climb<'a, B> {
     /// height that certainly is not exceeded.
     fn prove(&mut self, exec: &Exec) -> Result<f64, Cancelled> {
         let mut limit = f64::NEG_INFINITY;
-        let mut undecided = VecDeque::from([self.room]);
+        let mut undecided = VecDeque::from([(self.room, Rc::new(self.body.whole()))]);
         let (mut cells, mut in_vain) = (0, 0);
-        while let Some(cell) = undecided.pop_front() {
+        while let Some((cell, around)) = undecided.pop_front() {
             let cell = self.above_reached(cell);
-            if cell.is_empty() || self.body.is_outside(&cell) {
+            if cell.is_empty() {
                 continue;
             }
+            let Some(region) = self.body.narrow(&around, &cell) else { continue };
             exec.cancel.check()?;
             cells += 1;
             let size = cell.size();
@@ -254,7 +256,8 @@ impl<'a, B: Body> Climb<'a, B> {
             } else {
                 self.try_at(cell.center());
             }
-            undecided.extend(cell.halves());
+            let region = Rc::new(region);
+            undecided.extend(cell.halves().map(|half| (half, Rc::clone(&region))));
         }
         Ok(limit.max(self.reached() + self.resolution))
     }

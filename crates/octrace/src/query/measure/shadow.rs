@@ -4,6 +4,7 @@ use super::body::Body;
 use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Ray, Vec3};
 use std::collections::VecDeque;
+use std::rc::Rc;
 
 /// A plane of parallel rays, and a rectangle in it around what a box fills.
 pub(super) struct Picture {
@@ -34,7 +35,7 @@ impl Picture {
 }
 
 /// About so many boxes make up the shadow.
-const BOXES: usize = 2048;
+const BOXES: usize = 4096;
 /// Tiles along each edge of the picture.
 const TILES: usize = 512;
 
@@ -53,14 +54,16 @@ impl Shadow {
         let tile = picture.half.map(|half| 2.0 * half / TILES as f64);
         let low = picture.half.map(|half| -half);
         let mut shadow = Self { low, tile, dark: vec![false; TILES * TILES] };
-        let mut boxes = VecDeque::from([*room]);
-        while let Some(cell) = boxes.pop_front() {
+        if room.is_empty() {
+            return Ok(shadow);
+        }
+        let mut boxes = VecDeque::from([(*room, Rc::new(body.whole()))]);
+        while let Some((cell, around)) = boxes.pop_front() {
             exec.cancel.check()?;
-            if cell.is_empty() || body.is_outside(&cell) {
-                continue;
-            }
+            let Some(region) = body.narrow(&around, &cell) else { continue };
             if boxes.len() < BOXES && cell.size().max_abs() > tile[0].min(tile[1]) {
-                boxes.extend(cell.halves());
+                let region = Rc::new(region);
+                boxes.extend(cell.halves().map(|half| (half, Rc::clone(&region))));
             } else {
                 shadow.darken(&cell, picture);
             }

@@ -128,6 +128,7 @@ struct Haunted;
 
 impl Body for Haunted {
     type Scratch = ();
+    type Region = ();
 
     fn bounds(&self) -> Bounds {
         Bounds::new(Vec3::splat(-2.0), Vec3::splat(2.0))
@@ -147,9 +148,11 @@ impl Body for Haunted {
         }
     }
 
-    fn is_outside(&self, b: &Bounds) -> bool {
+    fn whole(&self) {}
+
+    fn narrow(&self, (): &(), b: &Bounds) -> Option<()> {
         let nearest = b.min.max(Vec3::ZERO).min(b.max);
-        nearest.length() > 1.0 && !(b.min.z <= 1.5 && 1.5 <= b.max.z)
+        (nearest.length() <= 1.0 || (b.min.z <= 1.5 && 1.5 <= b.max.z)).then_some(())
     }
 }
 

@@ -195,11 +195,11 @@ impl Estimate {
     }
 }
 
-/// The error of the mean of the parts by their standard deviation: a quarter of that if they were independent. The whole
-/// grid is better still: with an error of `g^1.5` to `g^2.5` it has an eighth to a 32nd. So this is at the least twice,
-/// often eight times the standard deviation of the result.
+/// The error of the mean of the parts by their standard deviation: three eighths of it. Were the parts independent, that
+/// would be one and a half times the mean's own; but the whole grid is better than that. Where the error goes with `g^1.5`
+/// to `g^2.5`, it has an eighth to a 32nd of a part's. So this is three times the result's standard deviation at least.
 fn deviation(numbers: [f64; PARTS]) -> f64 {
     let mean = numbers.iter().sum::<f64>() / PARTS as f64;
     let square = numbers.iter().map(|n| (n - mean) * (n - mean)).sum::<f64>();
-    (square / ((PARTS - 1) * PARTS) as f64).sqrt()
+    1.5 * (square / ((PARTS - 1) * PARTS) as f64).sqrt()
 }
