@@ -123,7 +123,8 @@ impl<'a> Whitted<'a> {
     pub(crate) fn camera_ray(&self, ray: &Ray, scratch: &mut Scratch, counts: &mut RayCounts) -> Seen {
         counts.camera += 1;
         let mut media = Media::default();
-        if self.tracer.bodies() > 1 && self.tracer.bounds().contains(ray.origin) {
+        let may_start_inside = self.tracer.is_unbounded() || self.tracer.bounds().contains(ray.origin);
+        if self.tracer.bodies() > 1 && may_start_inside {
             for body in 0..self.tracer.bodies() {
                 if self.tracer.body_contains(body, ray.origin, scratch) {
                     media = media.enter(body);

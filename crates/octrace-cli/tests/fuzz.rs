@@ -1,0 +1,56 @@
+//! The laws of the fuzz targets, over every scene and every input of the reader's suite, whole and damaged.
+
+#[path = "../../../fuzz/laws.rs"]
+mod laws;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// All files of a folder and those in it, in order.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut pending = vec![folder.to_owned()];
+    while let Some(folder) = pending.pop() {
+        for entry in fs::read_dir(&folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+            let path = entry.expect("the folder can be listed").path();
+            if path.is_dir() { pending.push(path) } else { files.push(path) }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn inputs() -> Vec<Vec<u8>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folders = ["scenes", "crates/octrace-read/tests/suite"];
+    let inputs: Vec<_> = folders.iter().flat_map(|folder| files(&root.join(folder))).collect();
+    assert!(inputs.len() > 30, "{} inputs", inputs.len());
+    inputs.iter().map(|path| fs::read(path).expect("an input can be read")).collect()
+}
+
+#[test]
+fn any_input_is_parsed() {
+    for input in inputs() {
+        laws::parse(&input);
+        for cut in [input.len() / 3, input.len() * 2 / 3] {
+            laws::parse(&input[..cut]);
+            laws::parse(&input[cut..]);
+        }
+    }
+}
+
+#[test]
+fn any_input_is_traced() {
+    for input in inputs() {
+        laws::trace(&input);
+    }
+}
+
+/// What fuzzing finds goes here, with a name.
+#[test]
+fn extreme_numbers_are_traced() {
+    for input in ["", "cube(1e300);", "sphere(r=1e-300);", "translate([1e300,0,0]) cube(1); cube(1);", "torus(1,1e-9);"]
+    {
+        laws::trace(input.as_bytes());
+    }
+}
