@@ -237,3 +237,30 @@ pub(super) fn walk<B>(
         t = leave;
     }
 }
+
+/// The line on the lattice in exact numbers of the scene, for tests.
+#[cfg(test)]
+pub(super) struct ExactLine {
+    pub origin: [num_rational::BigRational; 3],
+    pub direction: [num_rational::BigRational; 3],
+}
+
+/// The line that [`walk`] follows; its parameters are the ray's.
+#[cfg(test)]
+pub(super) fn lattice_line(octree: &Octree, ray: &Ray, t_in: f64) -> ExactLine {
+    use num_rational::BigRational;
+    let exact = |v: f64| BigRational::from_float(v).expect("a finite number");
+    let line = Line::new(octree, ray, t_in);
+    let unit = exact(2.0 * octree.half) / BigRational::from_integer(EDGE.into());
+    // One unit of the lattice parameter is `t_scale` of the ray's.
+    let direction = [0, 1, 2].map(|axis| {
+        let d = BigRational::from_integer(line.direction[axis].into()) * &unit / exact(line.t_scale);
+        if line.mirrored >> axis & 1 == 1 { -d } else { d }
+    });
+    let origin = [0, 1, 2].map(|axis| {
+        let place = if line.mirrored >> axis & 1 == 1 { EDGE - line.start[axis] } else { line.start[axis] };
+        let low = exact(octree.center[axis] - octree.half);
+        low + BigRational::from_integer(place.into()) * &unit - &direction[axis] * exact(line.t_start)
+    });
+    ExactLine { origin, direction }
+}

@@ -11,6 +11,8 @@ mod glassner;
 mod lattice;
 mod parametric;
 mod samet;
+#[cfg(test)]
+mod tests;
 mod wyvill_kunii;
 
 use crate::geom::{Ray, Vec3};
