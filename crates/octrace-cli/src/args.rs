@@ -106,8 +106,9 @@ pub struct TraceArgs {
     /// How often the octree's cells are divided at most [default: by the number of primitives]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20))]
     pub octree_depth: Option<u32>,
-    /// How many primitives a cell may hold without being divided
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// How many different surfaces of primitives (a block has six, a ball one) a cell may hold without being divided
+    /// [default: 6]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub leaf_primitives: Option<u32>,
     /// How many threads to use [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]

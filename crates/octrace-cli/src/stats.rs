@@ -1,7 +1,6 @@
 //! Times and counts of one picture, for programs.
 
 use octrace::Tracer;
-
 use octrace::octree::OctreeStats;
 use octrace::shade::RayCounts;
 use serde::Serialize;

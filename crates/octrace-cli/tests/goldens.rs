@@ -133,6 +133,20 @@ macro_rules! goldens {
             check(stringify!($name), $file, $from);
         })*
 
+        /// Every scene is drawn by a test.
+        #[test]
+        fn every_scene_has_a_golden() {
+            let drawn = [$($file),*];
+            let scenes = root().join("scenes");
+            for folder in [scenes.clone(), scenes.join("coincidence")] {
+                for entry in fs::read_dir(folder).expect("the scenes are readable") {
+                    let path = entry.expect("the scenes are readable").path();
+                    let name = path.strip_prefix(&scenes).expect("it is in there").to_string_lossy().replace('\\', "/");
+                    assert!(path.is_dir() || drawn.contains(&name.as_str()), "{name} is in no golden");
+                }
+            }
+        }
+
         /// No golden is left over from a test that is gone.
         #[test]
         fn every_golden_has_its_test() {

@@ -24,7 +24,7 @@ pub mod syntax;
 
 pub use diagnostic::{Checked, Diagnostic, Severity};
 pub use lower::{Loaded, Skipped};
-pub use options::{Facets, ParseFacetsError, ReadOptions};
+pub use options::{Facets, ReadOptions, UnknownFacets};
 pub use source::{Dialect, Source, SourceRange};
 
 use diagnostic::{Collector, has_errors};

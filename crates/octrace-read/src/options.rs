@@ -34,13 +34,13 @@ impl fmt::Display for Facets {
 /// A word that is not the name of a [`Facets`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("facets are `auto`, `smooth` or `written`, not `{0}`")]
-pub struct ParseFacetsError(pub String);
+pub struct UnknownFacets(pub String);
 
 impl FromStr for Facets {
-    type Err = ParseFacetsError;
+    type Err = UnknownFacets;
     fn from_str(word: &str) -> Result<Self, Self::Err> {
         let named = |f: &Self| f.to_string() == word;
-        Self::ALL.into_iter().find(named).ok_or_else(|| ParseFacetsError(word.to_owned()))
+        Self::ALL.into_iter().find(named).ok_or_else(|| UnknownFacets(word.to_owned()))
     }
 }
 

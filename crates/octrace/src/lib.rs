@@ -49,7 +49,7 @@ pub mod exec;
 pub mod film;
 pub mod geom;
 pub mod model;
-pub mod num;
+mod num;
 pub mod octree;
 pub mod primitive;
 pub mod query;

@@ -1,4 +1,5 @@
-//! A module of the core uses only those above it: the order of ARCHITECTURE.md, kept by reading the `use` lines.
+//! What can be held true by reading the sources: a module of the core uses only those above it, in the order of
+//! ARCHITECTURE.md; and what comments cite is listed in docs/references.md.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,4 +54,36 @@ fn modules_use_only_what_is_above_them() {
     }
     assert!(lines_seen > 50, "the test reads the sources");
     assert!(wrong.is_empty(), "lower layers reach up:\n{}", wrong.join("\n"));
+}
+
+/// Keys such as `Roth 1982` in `[Roth 1982; Comba-Persiano, §2.1]`.
+fn citations(text: &str) -> impl Iterator<Item = &str> {
+    let comments = text.lines().filter(|line| line.trim_start().starts_with("//"));
+    let brackets = comments.flat_map(|line| line.split('[').skip(1).filter_map(|rest| Some(rest.split_once(']')?.0)));
+    let keys = brackets.flat_map(|inner| inner.split("; ")).map(|key| key.split(", §").next().unwrap_or(key));
+    let dated = |key: &&str| key.len() > 5 && key[..1] != *"`" && key.split(' ').next_back().is_some_and(is_year);
+    keys.filter(move |key| *key == "Comba-Persiano" || dated(key))
+}
+
+fn is_year(word: &str) -> bool {
+    word.len() == 4 && word.bytes().all(|b| b.is_ascii_digit())
+}
+
+#[test]
+fn what_is_cited_is_in_the_references_and_the_other_way_round() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let references = fs::read_to_string(root.join("../../docs/references.md")).expect("the references are readable");
+    let listed: Vec<&str> =
+        references.lines().filter_map(|line| Some(line.strip_prefix("- [")?.split_once(']')?.0)).collect();
+    let mut files = Vec::new();
+    sources(root, &mut files);
+    let texts: Vec<String> = files.iter().map(|file| fs::read_to_string(file).expect("sources are UTF-8")).collect();
+    let cited: Vec<&str> = texts.iter().flat_map(|text| citations(text)).collect();
+    assert!(cited.len() > 10, "the test reads the sources");
+    for key in &cited {
+        assert!(listed.contains(key), "[{key}] is not in docs/references.md");
+    }
+    for key in &listed {
+        assert!(cited.contains(key), "[{key}] of docs/references.md is cited nowhere");
+    }
 }

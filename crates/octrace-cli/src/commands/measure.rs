@@ -32,6 +32,7 @@ pub fn run(args: &MeasureArgs, session: &Session) -> Result<(), Failure> {
     let measured = {
         let (exec, _listening) = session.exec(&args.trace);
         let tracer = Tracer::build(&scene.solid, &args.trace.options(scene.snap), &exec)?;
+        session.remark_on_snapping(&tracer);
         measure(&tracer, &MeasureOptions { tolerance: args.tolerance, ..MeasureOptions::default() }, &exec)
     };
     let measures = measured.map_err(|error| match error {
@@ -74,39 +75,17 @@ fn report<'a>(source: &'a octrace_read::Source, args: &MeasureArgs, measures: &M
 
 /// For people: values in full, errors in two digits.
 fn table(report: &Report) -> String {
-    let mut text = format!(
-        "volume    {} ± {:.1e}
-",
-        report.volume, report.volume_error
-    );
+    let mut lines = vec![format!("volume    {} ± {:.1e}", report.volume, report.volume_error)];
     if let (Some([x, y, z]), Some(error)) = (report.centroid, report.centroid_error) {
-        text += &format!(
-            "centroid  {x} {y} {z} ± {error:.1e}
-"
-        );
+        lines.push(format!("centroid  {x} {y} {z} ± {error:.1e}"));
     }
     match (report.bbox, report.bbox_error) {
         (Some([x0, y0, z0, x1, y1, z1]), Some(error)) => {
-            text += &format!(
-                "from      {x0} {y0} {z0} ± {error:.1e}
-"
-            );
-            text += &format!(
-                "to        {x1} {y1} {z1}
-"
-            );
-            text += &format!(
-                "size      {} {} {}
-",
-                x1 - x0,
-                y1 - y0,
-                z1 - z0
-            );
+            lines.push(format!("from      {x0} {y0} {z0} ± {error:.1e}"));
+            lines.push(format!("to        {x1} {y1} {z1}"));
+            lines.push(format!("size      {} {} {}", x1 - x0, y1 - y0, z1 - z0));
         }
-        _ => {
-            text += "the solid is empty
-"
-        }
+        _ => lines.push("the solid is empty".to_owned()),
     }
-    text
+    lines.join("\n") + "\n"
 }

@@ -1,7 +1,8 @@
 //! From solids to programs: primitives become intersections of surfaces, coincident surfaces one.
 
 use super::expr::{Expr, Op};
-use super::intern::{Face, intern};
+use super::face::Face;
+use super::intern::intern;
 use super::{Catalog, CompileReport, Constant, Leaf, Literal, Program, Word};
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, PartId, Solid};

@@ -1,8 +1,10 @@
 //! From the CSG tree to a program: what is evaluated along rays and simplified in cells.
 
 mod expr;
+mod face;
 mod intern;
 mod lower;
+mod place;
 mod simplify;
 mod text;
 mod words;

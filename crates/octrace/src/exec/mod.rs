@@ -1,5 +1,6 @@
 //! How work is done, never what: threads, progress, interruption. Nothing here changes one bit of a result.
 
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -79,6 +80,12 @@ pub struct Exec {
     pub cancel: CancelToken,
     /// Hears how far the work is.
     pub progress: Arc<dyn Progress>,
+}
+
+impl fmt::Debug for Exec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Exec").field("threads", &self.threads).field("cancel", &self.cancel).finish_non_exhaustive()
+    }
 }
 
 impl Default for Exec {

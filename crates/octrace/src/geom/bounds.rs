@@ -56,7 +56,7 @@ impl Bounds {
         Self { min: self.min.max(o.min), max: self.max.min(o.max) }
     }
 
-    /// The centre of a bounded box.
+    /// The centre of a bounded box; NaN for an empty one.
     pub fn center(&self) -> Vec3 {
         (self.min + self.max) * 0.5
     }

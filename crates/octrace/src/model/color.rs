@@ -35,11 +35,6 @@ impl Rgb {
         Self::new(r, g, b)
     }
 
-    /// The sRGB encoding of this colour, cut to 0..=1.
-    pub fn to_srgb(self) -> [f64; 3] {
-        [self.r, self.g, self.b].map(linear_to_srgb)
-    }
-
     /// The largest of the three components.
     pub fn max_component(self) -> f64 {
         self.r.max(self.g).max(self.b)

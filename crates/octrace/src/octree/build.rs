@@ -10,7 +10,8 @@ use std::collections::HashMap;
 /// When to stop cutting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildOptions {
-    /// A cell with this many surfaces or fewer is a leaf: the paper's *p*.
+    /// A cell with this many different surfaces or fewer is a leaf: the paper's *p*, which counts primitives (a block has six
+    /// surfaces). More than [`MAX_LEAF_SURFACES`](Self::MAX_LEAF_SURFACES) count as that many.
     pub leaf_surfaces: usize,
     /// Levels below the root; `None` chooses by the number of surfaces.
     pub depth: Option<u32>,
@@ -23,6 +24,8 @@ impl Default for BuildOptions {
 }
 
 impl BuildOptions {
+    /// The most surfaces that a leaf above the greatest depth can be allowed.
+    pub const MAX_LEAF_SURFACES: usize = 64;
     /// The deepest octree that can be asked for; cells must stay large compared to their margin.
     pub const MAX_DEPTH: u32 = 20;
 
@@ -286,7 +289,7 @@ impl Builder<'_> {
 
     /// Whether a program has no more different surfaces than a leaf may.
     fn surfaces_at_most(&self, words: &[u32]) -> bool {
-        let mut seen: [u32; 64] = [0; 64];
+        let mut seen = [0; BuildOptions::MAX_LEAF_SURFACES];
         let mut count = 0;
         for &word in words {
             if let Word::Literal { index, .. } = Word::decode(word) {

@@ -2,4 +2,5 @@
 
 mod whitted;
 
-pub use whitted::{Lighting, RayCounts, Whitted};
+pub use whitted::RayCounts;
+pub(crate) use whitted::{Lighting, Whitted};

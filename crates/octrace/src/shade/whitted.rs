@@ -15,7 +15,7 @@ use std::ops::AddAssign;
 
 /// What lights the scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lighting {
+pub(crate) struct Lighting {
     /// The sources.
     pub lights: Vec<Light>,
     /// Ambient light `Ia`.
@@ -51,7 +51,7 @@ impl AddAssign for RayCounts {
 
 /// The integrator.
 #[derive(Debug)]
-pub struct Whitted<'a> {
+pub(crate) struct Whitted<'a> {
     scene: &'a Scene,
     tracer: &'a Tracer,
     lighting: Lighting,

@@ -58,7 +58,7 @@ impl Torus {
     /// nothing.
     ///
     /// The parameters at which `f` turns are the roots of a cubic. Between two of them `f` has one root at most, and so
-    /// has `g` (see [`Line::value`]), whose sign at the turns tells whether: it is the surface itself that decides, not
+    /// has `g` (see `Line::value`), whose sign at the turns tells whether: it is the surface itself that decides, not
     /// the coefficients of a polynomial.
     pub fn crossings(&self, ray: &Ray) -> Crossings {
         let (origin, direction) = (self.to_local.point(ray.origin), self.to_local.vector(ray.direction));

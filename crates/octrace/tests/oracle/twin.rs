@@ -79,7 +79,7 @@ fn polyhedron_level(polyhedron: &Polyhedron, p: Vec3) -> f64 {
     if angle.abs() > 2.0 * std::f64::consts::PI { -distance } else { distance }
 }
 
-/// The solid angle of a triangle seen from the origin [van Oosterom and Strackee 1983].
+/// The solid angle of a triangle seen from the origin [van Oosterom, Strackee 1983].
 fn solid_angle(a: Vec3, b: Vec3, c: Vec3) -> f64 {
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;

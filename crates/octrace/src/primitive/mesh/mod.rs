@@ -15,7 +15,8 @@ use crate::geom::{Affine, Bounds, Ray, Vec3};
 use line::Line;
 use std::ops::ControlFlow;
 
-/// A polyhedron in world space, for which rays can be traced. See the [module](self).
+/// A polyhedron in world space, for which rays can be traced: watertight, with parameters from planes that it may share
+/// with other solids.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     points: Vec<Vec3>,

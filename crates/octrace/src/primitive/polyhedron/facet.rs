@@ -20,8 +20,8 @@ pub struct FacePlane {
 }
 
 impl FacePlane {
-    /// The plane that fits a closed polygon best [Newell]: its normal is the direction from which the polygon looks
-    /// largest, counter-clockwise. `None` where the area is zero to rounding.
+    /// The plane that fits a closed polygon best, after Newell [Sutherland, Sproull, Schumacker 1974]: its normal is the
+    /// direction from which the polygon looks largest, counter-clockwise. `None` where the area is zero to rounding.
     ///
     /// A polygon in a plane with a constant coordinate gets that plane exactly.
     pub fn fit(corners: &[Vec3]) -> Option<Self> {
