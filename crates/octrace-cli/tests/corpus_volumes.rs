@@ -3,24 +3,15 @@
 //! The references were computed from meshes by other programs; each states how far it can be trusted.
 
 mod common;
+#[path = "../../octrace-read/tests/corpora/mod.rs"]
+mod corpora;
 
 use common::Folder;
+use corpora::corpora;
 use serde_json::Value;
-use std::path::PathBuf;
 
 /// So many of the models consist of what can be rendered.
 const MEASURABLE: usize = 52;
-
-/// The folder of real models, if it is there: `OCTRACE_CORPORA`, or beside the repository.
-fn corpora() -> Option<PathBuf> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpora");
-    let folder = std::env::var_os("OCTRACE_CORPORA").map_or_else(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("SKIPPED: no corpora at {}", folder.display());
-    None
-}
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)

@@ -1,26 +1,10 @@
 //! Real models: every one is read, and what it still lacks is listed in full.
 
-mod common;
+mod corpora;
 
+use corpora::openscad_dumps;
 use octrace_read::{Facets, ReadOptions, Severity, Source, read_scene, syntax};
 use std::path::PathBuf;
-
-fn dumps() -> Option<Vec<PathBuf>> {
-    let mut folders = vec![common::corpora()?.join("openscad")];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).expect("the corpus can be listed") {
-            let path = entry.expect("the corpus can be listed").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension() == Some("csg".as_ref()) {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    Some(files)
-}
 
 fn source(path: &PathBuf) -> Source {
     Source::new(path.to_string_lossy(), std::fs::read(path).expect("a dump can be read"))
@@ -28,7 +12,7 @@ fn source(path: &PathBuf) -> Source {
 
 #[test]
 fn every_real_model_is_read_or_says_what_it_lacks() {
-    let Some(dumps) = dumps() else { return };
+    let Some(dumps) = openscad_dumps() else { return };
     assert_eq!(dumps.len(), 172);
     let mut whole = 0;
     for path in &dumps {
@@ -61,7 +45,7 @@ fn every_real_model_is_read_or_says_what_it_lacks() {
 /// Every place counts: as many as a search for words in the text finds, where nothing is nested.
 #[test]
 fn the_list_of_what_is_missing_is_complete() {
-    let Some(dumps) = dumps() else { return };
+    let Some(dumps) = openscad_dumps() else { return };
     let logo = dumps.iter().find(|p| p.ends_with("Basics__LetterBlock.csg")).expect("an example of OpenSCAD");
     let source = source(logo);
     let listed = read_scene(&source, &ReadOptions::default()).diagnostics;
@@ -73,7 +57,7 @@ fn the_list_of_what_is_missing_is_complete() {
 
 #[test]
 fn what_is_left_out_is_named_and_the_rest_is_there() {
-    let Some(dumps) = dumps() else { return };
+    let Some(dumps) = openscad_dumps() else { return };
     let options = ReadOptions { skip_unsupported: true, ..ReadOptions::default() };
     let (mut drawn, mut nothing) = (0, 0);
     for path in &dumps {

@@ -2,37 +2,53 @@
 //! time: where one of these numbers grows, something has become slower.
 
 use octrace::exec::Exec;
-use octrace::film::{Background, View, render};
+use octrace::film::{Background, Film, RenderStats, View, render};
 use octrace::model::frame_all;
 use octrace::octree::BuildOptions;
+use octrace::trace::TracerStats;
+use octrace::traverse::TraversalKind;
 use octrace::{Material, Part, PartId, Projection, Rgb, Scene, Solid, Tracer, TracerOptions};
 use std::fmt::Write;
 
-fn tracer(scene: &Scene, threads: usize) -> Tracer {
-    let options = TracerOptions { octree: BuildOptions { leaf_surfaces: 2, depth: Some(5) }, ..Default::default() };
-    Tracer::build_bodies(&scene.bodies().solids, &options, &Exec::with_threads(threads)).expect("nobody cancels")
+/// What came of a scene.
+#[derive(Debug, PartialEq)]
+struct Outcome {
+    program: String,
+    tracer: TracerStats,
+    picture: RenderStats,
+    film: Film,
+}
+
+fn outcome(scene: &Scene, traversal: TraversalKind, threads: usize) -> Outcome {
+    let exec = Exec::with_threads(threads);
+    let octree = BuildOptions { leaf_surfaces: 2, depth: Some(5) };
+    let options = TracerOptions { octree, traversal, ..TracerOptions::default() };
+    let tracer = Tracer::build_bodies(&scene.bodies().solids, &options, &exec).expect("nobody cancels");
+    let perspective = Projection::Perspective { fov_deg: 22.5 };
+    let view = View {
+        camera: frame_all(&tracer.bounds(), None, perspective, (64, 48)),
+        width_px: 64,
+        height_px: 48,
+        samples: 1,
+        max_bounces: 4,
+        background: Background::Scene,
+    };
+    let (film, picture) = render(scene, &tracer, &view, &exec).expect("nobody cancels");
+    Outcome { program: tracer.program_text(), tracer: tracer.stats(), picture, film }
 }
 
 /// The program, the octree, and what a picture of 64 by 48 pixels takes; the same for any number of threads.
 fn report(scene: &Scene) -> String {
-    let [one, many] = [1, 3].map(|threads| {
-        let tracer = tracer(scene, threads);
-        let perspective = Projection::Perspective { fov_deg: 22.5 };
-        let view = View {
-            camera: frame_all(&tracer.bounds(), None, perspective, (64, 48)),
-            width_px: 64,
-            height_px: 48,
-            samples: 1,
-            max_bounces: 4,
-            background: Background::Scene,
-        };
-        let (film, stats) = render(scene, &tracer, &view, &Exec::with_threads(threads)).expect("nobody cancels");
-        (tracer.program_text(), tracer.stats(), stats, film)
-    });
-    assert!(one == many, "threads are visible");
-    let (program, tracer, picture, _) = one;
-    let mut text = program;
-    writeln!(text, "\n{tracer:#?}\n\n{picture:#?}").expect("strings take all");
+    let outcome_by = |traversal| {
+        let one = outcome(scene, traversal, 1);
+        assert!(one == outcome(scene, traversal, 3), "threads are visible");
+        one
+    };
+    let Outcome { program, tracer, picture, .. } = outcome_by(TraversalKind::default());
+    let mut text = format!("{program}\n{tracer:#?}\n\n{picture:#?}\n\ncells visited\n");
+    for traversal in TraversalKind::ALL {
+        writeln!(text, "  {traversal}: {}", outcome_by(traversal).picture.counters.cells).expect("strings take all");
+    }
     text
 }
 

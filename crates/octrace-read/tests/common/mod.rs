@@ -1,10 +1,8 @@
-//! What several tests need.
-#![allow(dead_code, reason = "each test file uses a part of this")]
+//! Solids in words.
 
 use octrace::model::Node;
 use octrace::{Affine, BoolOp, Primitive, Solid};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 /// A solid in words, on one line.
 pub fn describe(solid: &Solid) -> String {
@@ -63,15 +61,4 @@ fn write_map(map: &Affine, out: &mut String) {
         write!(out, "+[{} {} {}]", t[0], t[1], t[2]).expect("strings take all");
     }
     out.push(' ');
-}
-
-/// The folder of real models, if it is there: `OCTRACE_CORPORA`, or beside the repository.
-pub fn corpora() -> Option<PathBuf> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/corpora");
-    let folder = std::env::var_os("OCTRACE_CORPORA").map_or_else(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("SKIPPED: no corpora at {}", folder.display());
-    None
 }
