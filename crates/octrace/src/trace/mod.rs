@@ -3,6 +3,7 @@
 mod canonical;
 mod combine;
 mod march;
+mod prepared;
 mod report;
 mod roots;
 mod tracer;

@@ -3,6 +3,7 @@
 use super::canonical;
 use super::combine::combine;
 use super::march::{March, Stop};
+use super::prepared::Prepared;
 use super::report::{RayReport, VisitedCell};
 use super::roots::Roots;
 use crate::compile::{Catalog, CompileReport, Constant, Program, compile, program_text};
@@ -134,8 +135,9 @@ struct Body {
 
 impl Body {
     /// The spans of the whole line, without the octree.
-    fn canonical_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
-        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
+    fn canonical_spans(&self, catalog: &Catalog, prepared: &Prepared) -> Spans {
+        let program = if prepared.passes_by { &self.program.outer } else { &self.program.whole };
+        with_stack_for(self.nesting, || canonical::spans(catalog, program, &prepared.ray))
     }
 
     /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
@@ -210,17 +212,17 @@ impl Tracer {
     pub fn body_hit(&self, body: usize, ray: &Ray, end: f64, scratch: &mut Scratch) -> Option<Hit> {
         let prepared = Prepared::new(ray, &self.bounds);
         let (start, end) = (prepared.inner(0.0), prepared.inner(end));
-        let hit = match self.accelerated(body, &prepared.ray, (start, end), scratch, ControlFlow::Break) {
+        let hit = match self.accelerated(body, &prepared, (start, end), scratch, ControlFlow::Break) {
             ControlFlow::Continue(()) => None,
             ControlFlow::Break(Stop::Done(hit)) => Some(hit),
             ControlFlow::Break(Stop::Leak) => self.bodies[body]
-                .canonical_spans(&self.catalog, &prepared.ray)
+                .canonical_spans(&self.catalog, &prepared)
                 .into_iter()
                 .flat_map(|span| [span.enter, span.exit])
                 .flatten()
                 .find(|hit| start < hit.t && hit.t <= end),
         };
-        hit.map(|hit| prepared.outer_hit(hit))
+        hit.and_then(|hit| prepared.outer_hit(hit))
     }
 
     /// Whether the point is in the solid. Points of the surface are in or out as half-open intervals have it.
@@ -232,16 +234,18 @@ impl Tracer {
     pub fn body_contains(&self, body: usize, point: Vec3, scratch: &mut Scratch) -> bool {
         // A direction that no face is likely to contain.
         let ray = Ray { origin: point, direction: Vec3::new(0.5773, 0.5131, 0.6351) };
-        match self.accelerated(body, &ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
+        let prepared = Prepared::new(&ray, &self.bounds);
+        let start = prepared.inner(0.0);
+        match self.accelerated(body, &prepared, (start, f64::INFINITY), scratch, ControlFlow::Break) {
             ControlFlow::Continue(()) => {
                 // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
-                self.bodies[body].ends_inside(&self.catalog, &ray)
+                self.bodies[body].ends_inside(&self.catalog, &prepared.ray)
             }
             ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
             ControlFlow::Break(Stop::Leak) => self.bodies[body]
-                .canonical_spans(&self.catalog, &ray)
+                .canonical_spans(&self.catalog, &prepared)
                 .iter()
-                .any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t()),
+                .any(|span| span.enter_t() <= start && start < span.exit_t()),
         }
     }
 
@@ -262,17 +266,16 @@ impl Tracer {
     /// The spans of the ray's whole line in one body.
     pub fn body_spans(&self, body: usize, ray: &Ray, scratch: &mut Scratch) -> Spans {
         let prepared = Prepared::new(ray, &self.bounds);
-        let ray = &prepared.ray;
         let mut hits = Vec::new();
         let stop: ControlFlow<Stop<()>> =
-            self.accelerated(body, ray, (f64::NEG_INFINITY, f64::INFINITY), scratch, |hit| {
+            self.accelerated(body, &prepared, (f64::NEG_INFINITY, f64::INFINITY), scratch, |hit| {
                 hits.push(hit);
                 ControlFlow::Continue(())
             });
         let spans = if stop.is_break() {
-            self.bodies[body].canonical_spans(&self.catalog, ray)
+            self.bodies[body].canonical_spans(&self.catalog, &prepared)
         } else if hits.is_empty() {
-            match self.bodies[body].ends_inside(&self.catalog, ray) {
+            match self.bodies[body].ends_inside(&self.catalog, &prepared.ray) {
                 true => vec![Span { enter: None, exit: None }],
                 false => Spans::new(),
             }
@@ -286,16 +289,16 @@ impl Tracer {
     fn accelerated<B>(
         &self,
         body: usize,
-        ray: &Ray,
+        prepared: &Prepared,
         (start, end): (f64, f64),
         scratch: &mut Scratch,
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
         let Body { program, octree, nesting } = &self.bodies[body];
         let Scratch { roots, counters } = scratch;
-        if self.options.accel == Accel::None {
+        if self.options.accel == Accel::None || prepared.passes_by {
             counters.surface_tests += self.catalog.literals.len() as u64;
-            for span in self.bodies[body].canonical_spans(&self.catalog, ray) {
+            for span in self.bodies[body].canonical_spans(&self.catalog, prepared) {
                 for hit in [span.enter, span.exit].into_iter().flatten() {
                     if start < hit.t
                         && hit.t <= end
@@ -307,7 +310,7 @@ impl Tracer {
             }
             return ControlFlow::Continue(());
         }
-        let mut march = March::new(&self.catalog, ray, roots, counters);
+        let mut march = March::new(&self.catalog, &prepared.ray, roots, counters);
         let traversal = self.options.traversal;
         let stop = with_stack_for(*nesting, || march.along(program, octree.as_ref(), traversal, (start, end), on_hit));
         if let ControlFlow::Break(Stop::Leak) = stop {
@@ -462,75 +465,4 @@ fn spans_of(hits: &[Hit]) -> Spans {
         spans.push(Span { enter, exit: None });
     }
     spans
-}
-
-/// A ray made fit for arithmetic, the same way for every acceleration: directions of extreme length are scaled by a power
-/// of two, and a ray that starts very far from the scene is restarted near it.
-struct Prepared {
-    ray: Ray,
-    shift: f64,
-    scale: f64,
-}
-
-impl Prepared {
-    fn new(ray: &Ray, bounds: &Bounds) -> Self {
-        let mut prepared = Self { ray: *ray, shift: 0.0, scale: 1.0 };
-        let largest = ray.direction.max_abs();
-        if !(1e-30..1e30).contains(&largest) {
-            let (_, exponent) = libm::frexp(largest);
-            let exponent = exponent - 1;
-            // In two steps, since the factor itself may overflow.
-            let half = -exponent / 2;
-            let (a, b) = (libm::ldexp(1.0, half), libm::ldexp(1.0, -exponent - half));
-            prepared.ray.direction = ray.direction * a * b;
-            prepared.scale = libm::ldexp(1.0, exponent);
-        }
-        if !bounds.is_empty() {
-            let to_center = bounds.center() - prepared.ray.origin;
-            let size = bounds.size().max_abs();
-            if to_center.max_abs() > 64.0 * size {
-                let d = prepared.ray.direction;
-                let shift = to_center.dot(d) / d.dot(d);
-                let origin = prepared.ray.at(shift);
-                if shift.is_finite() && origin.is_finite() {
-                    prepared.ray.origin = origin;
-                    prepared.shift = shift;
-                }
-            }
-        }
-        prepared
-    }
-
-    /// A parameter of the caller's ray as one of the prepared ray.
-    fn inner(&self, t: f64) -> f64 {
-        t * self.scale - self.shift
-    }
-
-    /// A parameter of the prepared ray as one of the caller's.
-    fn outer(&self, t: f64) -> f64 {
-        (t + self.shift) / self.scale
-    }
-
-    /// Parameters that rounding makes equal on the way leave no span, and no gap, between them.
-    fn outer_spans(&self, spans: Spans) -> Spans {
-        let mut outer: Spans = Spans::with_capacity(spans.len());
-        for span in spans {
-            let span = Span {
-                enter: span.enter.map(|hit| self.outer_hit(hit)),
-                exit: span.exit.map(|hit| self.outer_hit(hit)),
-            };
-            if span.enter_t() >= span.exit_t() {
-                continue;
-            }
-            match outer.last_mut() {
-                Some(last) if last.exit_t() == span.enter_t() => last.exit = span.exit,
-                _ => outer.push(span),
-            }
-        }
-        outer
-    }
-
-    fn outer_hit(&self, hit: Hit) -> Hit {
-        Hit { t: self.outer(hit.t), ..hit }
-    }
 }

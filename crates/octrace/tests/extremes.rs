@@ -1,0 +1,76 @@
+//! Solids and rays at the limits of arithmetic: the octree shows nothing that the canonical tracer does not, parameters are
+//! numbers, and nothing panics.
+
+use octrace::exec::Exec;
+use octrace::octree::BuildOptions;
+use octrace::trace::Scratch;
+use octrace::{Accel, Primitive, Ray, Solid, Spans, Tracer, TracerOptions, Vec3};
+
+fn tracer(solid: &Solid, accel: Accel, leaf_surfaces: usize, depth: u32) -> Tracer {
+    let octree = BuildOptions { leaf_surfaces, depth: Some(depth) };
+    let options = TracerOptions { accel, octree, ..TracerOptions::default() };
+    Tracer::build(solid, &options, &Exec::with_threads(1)).expect("nobody cancels")
+}
+
+/// The spans of each ray, where all tracers agree on them and on what follows from them.
+fn all_spans(solid: &Solid, rays: &[Ray]) -> Vec<Spans> {
+    let canonical = tracer(solid, Accel::None, 0, 0);
+    let expected: Vec<Spans> = rays.iter().map(|ray| canonical.spans(ray)).collect();
+    for (leaf_surfaces, depth) in [(4, 0), (1, 2), (0, 6)] {
+        let tested = tracer(solid, Accel::Octree, leaf_surfaces, depth);
+        let mut scratch = Scratch::default();
+        for (ray, expected) in rays.iter().zip(&expected) {
+            assert_eq!(&tested.spans_with(ray, &mut scratch), expected, "{ray:?}");
+            let hit = tested.first_hit_within(ray, f64::INFINITY, &mut scratch);
+            assert_eq!(hit, canonical.first_hit(ray), "{ray:?}");
+            assert!(hit.is_none_or(|hit| hit.t.is_finite()), "{hit:?}");
+            assert_eq!(tested.contains(ray.origin), canonical.contains(ray.origin), "{ray:?}");
+            assert_eq!(scratch.counters.leaks, 0, "{ray:?}");
+            let _ = tested.explain(ray).to_string();
+        }
+    }
+    for hit in expected.iter().flatten().flat_map(|span| [span.enter, span.exit]).flatten() {
+        assert!(hit.t.is_finite(), "{hit:?}");
+    }
+    expected
+}
+
+fn spans(solid: &Solid, ray: &Ray) -> Spans {
+    all_spans(solid, std::slice::from_ref(ray)).remove(0)
+}
+
+#[test]
+fn a_plane_that_is_met_at_infinity_is_not_met() {
+    for z in [1.0, -1.0] {
+        for slope in [1e-310, -1e-310, 5e-324] {
+            let ray = Ray::new([0.0, 0.0, z], [1.0, 0.0, slope]);
+            let spans = spans(&Solid::half_space(), &ray);
+            assert_eq!(spans.iter().any(|span| span.enter.is_none() && span.exit.is_none()), z > 0.0, "{spans:?}");
+        }
+    }
+}
+
+#[test]
+fn parameters_that_are_no_numbers_are_no_hits() {
+    let tiny = 1e-315;
+    assert_eq!(spans(&Solid::block(), &Ray::new([-1.0, 0.5, 0.5], [tiny, 0.0, 0.0])), []);
+    assert_eq!(spans(&Solid::sphere(), &Ray::new([2.0, 0.1, 0.0], [-tiny, 0.0, tiny * 0.1])), []);
+    assert_eq!(spans(&Solid::block(), &Ray::new([-1.0, 0.5, 0.5], [1e300, 0.0, 0.0])).len(), 1);
+}
+
+#[test]
+fn lines_that_pass_at_a_great_distance_meet_what_is_unbounded_only() {
+    let slab = Solid::half_space() - Solid::half_space().translate([0.0, 0.0, 1.0]);
+    let tilted = Solid::block().rotate([17.0, 30.0, 45.0]) + Solid::primitive(Primitive::Cone { top: 0.5 });
+    let mut rays = Vec::new();
+    for far in [1e3, 1e16, 1e20, 1e155, 1e300] {
+        for direction in [Vec3::X, Vec3::new(0.6, 0.8, 1e-9), Vec3::new(0.3, -0.2, 0.9)] {
+            let beside = direction.cross(Vec3::new(0.1, 0.7, 0.3)).normalized().expect("a direction");
+            rays.push(Ray::new(beside * far, direction));
+        }
+    }
+    assert!(all_spans(&tilted, &rays).iter().all(Vec::is_empty));
+    let with_slab = all_spans(&(tilted + slab.clone()), &rays);
+    let slab_alone = all_spans(&slab, &rays);
+    assert!(with_slab.iter().zip(&slab_alone).all(|(a, b)| a.len() == b.len()));
+}
