@@ -74,3 +74,15 @@ fn lines_that_pass_at_a_great_distance_meet_what_is_unbounded_only() {
     let slab_alone = all_spans(&slab, &rays);
     assert!(with_slab.iter().zip(&slab_alone).all(|(a, b)| a.len() == b.len()));
 }
+
+#[test]
+fn boxes_that_do_not_meet_hold_nothing_in_common() {
+    // From this far away both balls seem to be in the same place.
+    let flat = Solid::sphere().scale([2.0, 0.5, 2.0]).translate([0.0, -2.0, 0.0]);
+    let slim = Solid::sphere().scale([0.5, 0.5, 2.0]);
+    let ray = Ray::new([5.950570929777348e17, 7.934094573036463e17, 3.9670472865182317e17], [-1.5, -2.0, -1.0]);
+    assert_eq!(spans(&(flat & slim), &ray), []);
+    let cone = Solid::primitive(Primitive::Cone { top: 0.5 }).scale([0.5, 0.5, 1.0]);
+    let ray = Ray::new([-727606875106.9989, 0.5, -2910427500435.4956], [0.25, 0.0, 1.0]);
+    assert_eq!(spans(&(cone & Solid::block().translate([2.0, 0.0, 0.0])), &ray), []);
+}

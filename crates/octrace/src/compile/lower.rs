@@ -76,6 +76,14 @@ struct Lowered {
     bounded: Bounds,
 }
 
+impl Lowered {
+    /// Everything or nothing.
+    fn constant(inside: bool) -> Self {
+        let constant = Expr::Constant(inside);
+        Self { whole: constant, outer: Expr::Constant(inside), bounds: Bounds::EMPTY, bounded: Bounds::EMPTY }
+    }
+}
+
 #[derive(Default)]
 struct Lowering {
     snap: f64,
@@ -124,12 +132,7 @@ impl Lowering {
         const RED_ZONE: usize = 64 << 10;
         const SEGMENT: usize = 4 << 20;
         stacker::maybe_grow(RED_ZONE, SEGMENT, || match solid.node() {
-            Node::Empty => Lowered {
-                whole: Expr::Constant(negated),
-                outer: Expr::Constant(negated),
-                bounds: Bounds::EMPTY,
-                bounded: Bounds::EMPTY,
-            },
+            Node::Empty => Lowered::constant(negated),
             Node::Transform(inner, child) => self.solid(child, &(*map * *inner), part, negated),
             Node::Part(id, child) => {
                 // Inner parts win: the first that is set, seen from the leaf.
@@ -158,7 +161,10 @@ impl Lowering {
             BoolOp::Intersection => children.iter().fold(Bounds::ALL, |all, c| all.intersection(c.bounds)),
             BoolOp::Difference => children.first().map_or(Bounds::EMPTY, |c| c.bounds),
         };
-        let bounds = if bounds.is_empty() { Bounds::EMPTY } else { bounds };
+        if op == BoolOp::Intersection && !bounds.has_volume() {
+            // Boxes that only touch, or not even that, hold nothing in common.
+            return Lowered::constant(negated);
+        }
         let expr_op = if op == BoolOp::Union { Op::Or } else { Op::And }.under(negated);
         let bounded = match bounds.is_bounded() {
             true => bounds,
@@ -171,15 +177,9 @@ impl Lowering {
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
-        let nothing = |whole: bool| Lowered {
-            whole: Expr::Constant(whole),
-            outer: Expr::Constant(whole),
-            bounds: Bounds::EMPTY,
-            bounded: Bounds::EMPTY,
-        };
         // Products of invertible maps may still be flat to working precision, or overflow.
         let Some(inverse) = map.inverse() else {
-            return nothing(negated);
+            return Lowered::constant(negated);
         };
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
@@ -197,11 +197,11 @@ impl Lowering {
             Primitive::HalfSpace => faces.half_space(),
             // A tube too thin or too fat for its square to be a number is nothing to working precision.
             Primitive::Torus { minor } if *minor > 0.0 && (minor * minor).is_normal() => faces.torus(*minor),
-            Primitive::Torus { .. } => return nothing(negated),
+            Primitive::Torus { .. } => return Lowered::constant(negated),
             Primitive::Polyhedron(polyhedron) => {
                 faces.polyhedron(polyhedron);
                 if faces.faces.is_empty() {
-                    return nothing(negated);
+                    return Lowered::constant(negated);
                 }
                 let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
                 if !polyhedron.is_convex(self.snap.max(1e-12) * size) {
