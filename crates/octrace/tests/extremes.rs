@@ -1,6 +1,9 @@
 //! Solids and rays at the limits of arithmetic: the octree shows nothing that the canonical tracer does not, parameters are
 //! numbers, and nothing panics.
 
+mod common;
+
+use common::polyhedra;
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
 use octrace::trace::Scratch;
@@ -85,4 +88,34 @@ fn boxes_that_do_not_meet_hold_nothing_in_common() {
     let cone = Solid::primitive(Primitive::Cone { top: 0.5 }).scale([0.5, 0.5, 1.0]);
     let ray = Ray::new([-727606875106.9989, 0.5, -2910427500435.4956], [0.25, 0.0, 1.0]);
     assert_eq!(spans(&(cone & Solid::block().translate([2.0, 0.0, 0.0])), &ray), []);
+}
+
+#[test]
+fn what_is_too_large_or_too_thin_to_calculate_with_is_nothing() {
+    let shapes = [
+        Solid::block(),
+        Solid::sphere(),
+        Solid::cylinder(),
+        Solid::primitive(Primitive::Cone { top: 0.0 }),
+        Solid::primitive(Primitive::Torus { minor: 0.5 }),
+        polyhedra()[2].clone(),
+    ];
+    let rays = [
+        Ray::new([0.25, 0.25, 5.0], [0.0, 0.0, -1.0]),
+        Ray::new([1e200, 0.25, 0.5], [-1.0, 0.0, 0.0]),
+        Ray::new([-1e300, -1e300, 0.5], [1.0, 1.0, 1e-9]),
+        Ray::new([0.1, 0.2, 0.3], [1e300, 1e290, -1e308]),
+    ];
+    let ordinary = all_spans(&Solid::block(), &rays);
+    for shape in &shapes {
+        for size in [1e31, 1e300] {
+            for factors in [[size; 3], [1.0 / size; 3], [size, 1.0, 1.0], [1.0, 1.0, 1.0 / size]] {
+                let extreme = shape.clone().scale(factors);
+                assert!(all_spans(&extreme, &rays).iter().all(Vec::is_empty), "{factors:?}");
+                let moved = shape.clone().translate([size, 0.0, 0.0]);
+                let crowd = all_spans(&Solid::union([Solid::block(), extreme, moved]), &rays);
+                assert_eq!(crowd, ordinary, "{factors:?}");
+            }
+        }
+    }
 }

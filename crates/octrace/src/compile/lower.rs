@@ -181,6 +181,10 @@ impl Lowering {
         let Some(inverse) = map.inverse() else {
             return Lowered::constant(negated);
         };
+        let bounds = primitive.bounds(map);
+        if exceeds_numbers(primitive, &bounds, &inverse) {
+            return Lowered::constant(negated);
+        }
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
         let mut faces = FaceList { map, inverse, faces: Vec::new() };
@@ -195,9 +199,7 @@ impl Lowering {
             }
             Primitive::Cone { top } => faces.cone(*top),
             Primitive::HalfSpace => faces.half_space(),
-            // A tube too thin or too fat for its square to be a number is nothing to working precision.
-            Primitive::Torus { minor } if *minor > 0.0 && (minor * minor).is_normal() => faces.torus(*minor),
-            Primitive::Torus { .. } => return Lowered::constant(negated),
+            Primitive::Torus { minor } => faces.torus(*minor),
             Primitive::Polyhedron(polyhedron) => {
                 faces.polyhedron(polyhedron);
                 if faces.faces.is_empty() {
@@ -221,7 +223,6 @@ impl Lowering {
                 .collect(),
         };
         self.faces.append(&mut faces.faces);
-        let bounds = primitive.bounds(map);
         let outer = match (bounds.is_bounded(), &literals[..]) {
             (false, &[Expr::Literal { index, negated }]) => Expr::Literal { index, negated },
             _ => Expr::Constant(negated),
@@ -237,6 +238,23 @@ impl Lowering {
         self.literals.push(PendingLiteral { shape, leaf });
         Expr::Literal { index, negated }
     }
+}
+
+/// Lengths from the inverse of this up to this are told apart; what is larger or thinner is nothing. Then the fourth powers
+/// that finding crossings takes are numbers, whatever the ray.
+const LONGEST: f64 = 1e30;
+
+/// Whether a bounded primitive is too large, too far away, or too thin to calculate with.
+fn exceeds_numbers(primitive: &Primitive, bounds: &Bounds, inverse: &Affine) -> bool {
+    let thin = match primitive {
+        Primitive::HalfSpace => return false,
+        Primitive::Torus { minor } => *minor < 1.0 / LONGEST,
+        _ => false,
+    };
+    let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
+    let steepest = inverse.rows.iter().map(|row| row.max_abs()).fold(0.0, f64::max);
+    // Also where a number is NaN.
+    thin || !(farthest <= LONGEST && steepest <= LONGEST)
 }
 
 /// The faces of one primitive, moved to the scene by `map`.
