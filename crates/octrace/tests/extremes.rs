@@ -91,6 +91,23 @@ fn boxes_that_do_not_meet_hold_nothing_in_common() {
 }
 
 #[test]
+fn lines_that_are_all_but_parallel_to_faces_leave_a_polyhedron() {
+    for tiny in [1e-310, -1e-310, 5e-324, 1e-300, 1e-200] {
+        let rays = [
+            Ray::new([-6.5000013962631895, -1.0000012217307048, 0.5], [0.9999999999999848, 1.745329251994321e-7, tiny]),
+            Ray::new([-6.5, -1.5, 0.5], [1.0, tiny, tiny]),
+            Ray::new([-6.5, -2.0, 1.5], [1.0, -tiny, tiny]),
+        ];
+        for solid in polyhedra() {
+            let turned = solid.clone().scale([0.5; 3]).rotate([0.0, 0.0, 1e-5]).translate([0.5, -2.0, 0.5]);
+            for spans in [all_spans(&turned, &rays), all_spans(&solid, &rays)] {
+                assert!(spans.iter().flatten().all(|span| span.exit.is_some()), "{spans:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_is_too_large_or_too_thin_to_calculate_with_is_nothing() {
     let shapes = [
         Solid::block(),
