@@ -7,7 +7,7 @@ use common::polyhedra;
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
 use octrace::trace::Scratch;
-use octrace::{Accel, Primitive, Ray, Solid, Spans, Tracer, TracerOptions, Vec3};
+use octrace::{Accel, Affine, Primitive, Ray, Solid, Spans, Tracer, TracerOptions, Vec3};
 
 fn tracer(solid: &Solid, accel: Accel, leaf_surfaces: usize, depth: u32) -> Tracer {
     let octree = BuildOptions { leaf_surfaces, depth: Some(depth) };
@@ -104,6 +104,24 @@ fn lines_that_are_all_but_parallel_to_faces_leave_a_polyhedron() {
                 assert!(spans.iter().flatten().all(|span| span.exit.is_some()), "{spans:?}");
             }
         }
+    }
+}
+
+#[test]
+fn a_squeezed_polyhedron_minus_itself_is_nothing() {
+    // Two of the axes are parallel but for a thousandth of a degree.
+    let squeeze = Affine::from_rows([
+        [0.6186666911916294, -2.631695909410362, -0.0006087795551592646, -1.5],
+        [-0.7603360105233418, 2.279821337701914, 0.0007495704695489081, -1.0],
+        [-0.19783708281053994, -0.12213128888824289, 0.00019438096095431606, 1.0],
+    ]);
+    let ray = Ray::new(
+        [-34.743490327100055, 890.1795825287545, -3.916975270463314],
+        [3.682291830642913, -106.92572556291461, 0.5767716384622755],
+    );
+    for solid in polyhedra().into_iter().chain([Solid::block(), Solid::sphere(), Solid::cylinder()]) {
+        let squeezed = solid.scale([0.5; 3]).transform(squeeze);
+        assert_eq!(spans(&(squeezed.clone() - squeezed), &ray), []);
     }
 }
 
