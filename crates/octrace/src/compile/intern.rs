@@ -104,7 +104,8 @@ impl<'a> Interner<'a> {
         };
         for flip in [flipped, !flipped].into_iter().take(if ambiguous { 2 } else { 1 }) {
             let candidate = oriented(flip);
-            if let Some(surface) = self.find(self.plane_place(&candidate), corners) {
+            let place = self.plane_place(&candidate);
+            if let Some(surface) = self.find(&Surface::Plane(candidate), place, corners) {
                 return SurfaceRef { surface, flipped: flip };
             }
         }
@@ -172,7 +173,7 @@ impl<'a> Interner<'a> {
 
     /// A surface whose inside needs no choosing.
     fn curved(&mut self, surface: Surface, place: Place, samples: &[Vec3]) -> SurfaceRef {
-        let surface = self.find(place, samples).unwrap_or_else(|| self.insert(surface, place));
+        let surface = self.find(&surface, place, samples).unwrap_or_else(|| self.insert(surface, place));
         SurfaceRef { surface, flipped: false }
     }
 
@@ -182,12 +183,16 @@ impl<'a> Interner<'a> {
         Place { kind: 0, at: scaled.to_array(), extra: plane.offset - plane.normal.dot(self.center) }
     }
 
-    /// A surface within tolerance of all the samples, if there is one near that place: the oldest.
-    fn find(&mut self, place: Place, samples: &[Vec3]) -> Option<u32> {
+    /// A surface within tolerance of all the samples, if there is one near that place: the oldest. Or the very same one:
+    /// what was squeezed a lot may itself be off its samples.
+    fn find(&mut self, wanted: &Surface, place: Place, samples: &[Vec3]) -> Option<u32> {
         let width = self.place_tolerance * BIN_WIDTH;
         let probes = place.keys(width, self.place_tolerance);
         let matching = |surface: u32| {
             let surface = &self.surfaces[surface as usize];
+            if surface.same_numbers(wanted) {
+                return Some(0.0);
+            }
             let distance = samples.iter().map(|&p| surface.distance(p)).fold(0.0, f64::max);
             (distance <= self.tolerance).then_some(distance)
         };
@@ -259,6 +264,14 @@ mod tests {
         assert_ne!(snapped[0], snapped[2]);
         assert_eq!(report.snapped_surfaces, 1);
         assert!((report.largest_move - 1e-5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_same_face_twice_is_one_surface_however_far_off_its_corners() {
+        let Face::Plane { plane, corners } = square(2.0, 0.25, 1.0) else { unreachable!() };
+        let off = Face::Plane { plane: Plane { offset: plane.offset + 1e-6, ..plane }, corners };
+        let (refs, _) = interned(&[off.clone(), off], 0.0);
+        assert_eq!(refs[0], refs[1]);
     }
 
     #[test]

@@ -77,6 +77,14 @@ struct Lowered {
     bounded: Bounds,
 }
 
+impl Lowered {
+    /// Everything or nothing.
+    fn constant(inside: bool) -> Self {
+        let constant = Expr::Constant(inside);
+        Self { whole: constant, outer: Expr::Constant(inside), bounds: Bounds::EMPTY, bounded: Bounds::EMPTY }
+    }
+}
+
 #[derive(Default)]
 struct Lowering {
     snap: f64,
@@ -125,12 +133,7 @@ impl Lowering {
         const RED_ZONE: usize = 64 << 10;
         const SEGMENT: usize = 4 << 20;
         stacker::maybe_grow(RED_ZONE, SEGMENT, || match solid.node() {
-            Node::Empty => Lowered {
-                whole: Expr::Constant(negated),
-                outer: Expr::Constant(negated),
-                bounds: Bounds::EMPTY,
-                bounded: Bounds::EMPTY,
-            },
+            Node::Empty => Lowered::constant(negated),
             Node::Transform(inner, child) => self.solid(child, &(*map * *inner), part, negated),
             Node::Part(id, child) => {
                 // Inner parts win: the first that is set, seen from the leaf.
@@ -159,7 +162,10 @@ impl Lowering {
             BoolOp::Intersection => children.iter().fold(Bounds::ALL, |all, c| all.intersection(c.bounds)),
             BoolOp::Difference => children.first().map_or(Bounds::EMPTY, |c| c.bounds),
         };
-        let bounds = if bounds.is_empty() { Bounds::EMPTY } else { bounds };
+        if op == BoolOp::Intersection && !bounds.has_volume() {
+            // Boxes that only touch, or not even that, hold nothing in common.
+            return Lowered::constant(negated);
+        }
         let expr_op = if op == BoolOp::Union { Op::Or } else { Op::And }.under(negated);
         let bounded = match bounds.is_bounded() {
             true => bounds,
@@ -172,16 +178,14 @@ impl Lowering {
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
-        let nothing = |whole: bool| Lowered {
-            whole: Expr::Constant(whole),
-            outer: Expr::Constant(whole),
-            bounds: Bounds::EMPTY,
-            bounded: Bounds::EMPTY,
-        };
         // Products of invertible maps may still be flat to working precision, or overflow.
         let Some(inverse) = map.inverse() else {
-            return nothing(negated);
+            return Lowered::constant(negated);
         };
+        let bounds = primitive.bounds(map);
+        if exceeds_numbers(primitive, &bounds, &inverse) {
+            return Lowered::constant(negated);
+        }
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
         let mut faces = FaceList { map, inverse, faces: Vec::new() };
@@ -196,13 +200,11 @@ impl Lowering {
             }
             Primitive::Cone { top } => faces.cone(*top),
             Primitive::HalfSpace => faces.half_space(),
-            // A tube too thin or too fat for its square to be a number is nothing to working precision.
-            Primitive::Torus { minor } if *minor > 0.0 && (minor * minor).is_normal() => faces.torus(*minor),
-            Primitive::Torus { .. } => return nothing(negated),
+            Primitive::Torus { minor } => faces.torus(*minor),
             Primitive::Polyhedron(polyhedron) => {
                 faces.polyhedron(polyhedron);
                 if faces.faces.is_empty() {
-                    return nothing(negated);
+                    return Lowered::constant(negated);
                 }
                 let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
                 if !polyhedron.is_convex(self.snap.max(1e-12) * size) {
@@ -222,7 +224,6 @@ impl Lowering {
                 .collect(),
         };
         self.faces.append(&mut faces.faces);
-        let bounds = primitive.bounds(map);
         let outer = match (bounds.is_bounded(), &literals[..]) {
             (false, &[Expr::Literal { index, negated }]) => Expr::Literal { index, negated },
             _ => Expr::Constant(negated),
@@ -238,6 +239,23 @@ impl Lowering {
         self.literals.push(PendingLiteral { shape, leaf });
         Expr::Literal { index, negated }
     }
+}
+
+/// Lengths from the inverse of this up to this are told apart; what is larger or thinner is nothing. Then the fourth powers
+/// that finding crossings takes are numbers, whatever the ray.
+const LONGEST: f64 = 1e30;
+
+/// Whether a bounded primitive is too large, too far away, or too thin to calculate with.
+fn exceeds_numbers(primitive: &Primitive, bounds: &Bounds, inverse: &Affine) -> bool {
+    let thin = match primitive {
+        Primitive::HalfSpace => return false,
+        Primitive::Torus { minor } => *minor < 1.0 / LONGEST,
+        _ => false,
+    };
+    let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
+    let steepest = inverse.rows.iter().map(|row| row.max_abs()).fold(0.0, f64::max);
+    // Also where a number is NaN.
+    thin || !(farthest <= LONGEST && steepest <= LONGEST)
 }
 
 /// The faces of one primitive, moved to the scene by `map`.

@@ -32,6 +32,11 @@ impl Bounds {
         !(self.min.x <= self.max.x && self.min.y <= self.max.y && self.min.z <= self.max.z)
     }
 
+    /// Whether the box is more than a rectangle, a line or a point; never where it is empty.
+    pub fn has_volume(&self) -> bool {
+        self.min.x < self.max.x && self.min.y < self.max.y && self.min.z < self.max.z
+    }
+
     /// Whether the point is in the box or on its surface.
     pub fn contains(&self, p: Vec3) -> bool {
         self.min.min(p) == self.min && self.max.max(p) == self.max
@@ -68,8 +73,7 @@ impl Bounds {
 
     /// A bounded box cut in two across its longest edge.
     pub fn halves(&self) -> [Self; 2] {
-        let size = self.size();
-        let longest = if size.x >= size.y && size.x >= size.z { 0 } else { if size.y >= size.z { 1 } else { 2 } };
+        let longest = self.size().largest_axis();
         let (mut low, mut high) = (*self, *self);
         low.max[longest] = self.center()[longest];
         high.min[longest] = self.center()[longest];

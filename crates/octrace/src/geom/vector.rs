@@ -64,6 +64,16 @@ impl Vec3 {
         self.x.abs().max(self.y.abs()).max(self.z.abs())
     }
 
+    /// The axis of the coordinate with the largest magnitude; the first where several have it.
+    pub fn largest_axis(self) -> usize {
+        let [x, y, z] = self.abs().to_array();
+        match (x >= y && x >= z, y >= z) {
+            (true, _) => 0,
+            (false, true) => 1,
+            (false, false) => 2,
+        }
+    }
+
     /// Coordinate by coordinate, the smaller one.
     pub fn min(self, o: Self) -> Self {
         Self::new(self.x.min(o.x), self.y.min(o.y), self.z.min(o.z))

@@ -91,8 +91,7 @@ impl Bvh {
 /// Orders items along the axis on which their centres spread most, and returns the place of the middle one.
 fn split(items: &mut [u32], boxes: &[Bounds]) -> usize {
     let center = |i: u32| boxes[i as usize].center();
-    let spread = Bounds::around(items.iter().map(|&i| center(i))).size();
-    let axis = if spread.x >= spread.y && spread.x >= spread.z { 0 } else { if spread.y >= spread.z { 1 } else { 2 } };
+    let axis = Bounds::around(items.iter().map(|&i| center(i))).size().largest_axis();
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |&a, &b| center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b)));
     middle

@@ -2,6 +2,9 @@
 
 /// Where a line passes from one side of a surface to the other: the side that it comes from, and up to four ascending
 /// parameters at which it changes sides. As a set of parameters, the inside is half-open: `[enter, exit)`.
+///
+/// Parameters are finite. Where a line is so nearly parallel to a surface that its parameter would not be, it is on one
+/// side of the surface wherever it can be followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossings {
     t: [f64; 4],
@@ -17,13 +20,22 @@ impl Crossings {
 
     /// The line changes sides once.
     pub fn one(starts_inside: bool, t: f64) -> Self {
+        if !t.is_finite() {
+            return Self::none(starts_inside ^ (t == f64::NEG_INFINITY));
+        }
+        // Adding zero turns -0 into 0: equal parameters shall have equal bits.
         Self { t: [t + 0.0, 0.0, 0.0, 0.0], count: 1, starts_inside }
     }
 
     /// The line changes sides and back, at the two parameters in either order.
     pub fn two(starts_inside: bool, a: f64, b: f64) -> Self {
         let (a, b) = if a <= b { (a, b) } else { (b, a) };
-        // Adding zero turns -0 into 0: equal parameters shall have equal bits.
+        if !(a.is_finite() && b.is_finite()) {
+            return match a == f64::NEG_INFINITY {
+                true => Self::one(!starts_inside, b),
+                false => Self::one(starts_inside, a),
+            };
+        }
         Self { t: [a + 0.0, b + 0.0, 0.0, 0.0], count: 2, starts_inside }
     }
 
@@ -108,6 +120,16 @@ mod tests {
         assert_eq!(span.next(1.0, false), 2.0);
         assert_eq!(span.next(2.0, true), f64::INFINITY);
         assert_eq!(span.next(2.0, false), 2.0);
+    }
+
+    #[test]
+    fn what_is_crossed_at_infinity_is_not_crossed() {
+        const INF: f64 = f64::INFINITY;
+        assert_eq!(Crossings::one(false, INF), Crossings::none(false));
+        assert_eq!(Crossings::one(false, -INF), Crossings::none(true));
+        assert_eq!(Crossings::two(true, INF, 1.0), Crossings::one(true, 1.0));
+        assert_eq!(Crossings::two(true, 1.0, -INF), Crossings::one(false, 1.0));
+        assert_eq!(Crossings::two(true, INF, -INF), Crossings::none(false));
     }
 
     #[test]

@@ -101,6 +101,16 @@ impl Surface {
         }
     }
 
+    /// Whether both are the same simple surface, to the bit.
+    pub(crate) fn same_numbers(&self, other: &Surface) -> bool {
+        match (self, other) {
+            (Self::Plane(a), Self::Plane(b)) => a == b,
+            (Self::Quadric(a), Self::Quadric(b)) => a == b,
+            (Self::Torus(a), Self::Torus(b)) => a == b,
+            _ => false,
+        }
+    }
+
     /// The outward normal at a point of a simple surface, not normalised; zero at a cone's apex, where a torus closes
     /// in one point, and for a mesh, whose faces' planes are asked instead.
     pub fn gradient(&self, p: Vec3) -> Vec3 {

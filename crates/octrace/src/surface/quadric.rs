@@ -55,7 +55,7 @@ impl Quadric {
         // square of the cross product.
         let m = o.cross(d);
         let discriminant = -c0 * a - (m.z * m.z + s * (m.x * m.x + m.y * m.y));
-        if discriminant <= 0.0 {
+        if !(discriminant > 0.0 && discriminant.is_finite()) {
             // f keeps its sign: that of the direction's own value a as well as that of the origin's value c. Rounding may
             // part the two, for lines parallel to a cone's generator above all. The clearer one tells.
             let by_direction = a.abs() * o.dot(o) >= c.abs() * d.dot(d);

@@ -5,6 +5,7 @@
 
 use super::march::{March, Stop};
 use super::options::{Accel, TracerOptions};
+use super::prepared::Prepared;
 use super::{Scratch, canonical};
 use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier};
 use crate::exec::{Cancelled, Exec, with_stack_for};
@@ -52,7 +53,7 @@ impl Body {
     pub fn first_hit(
         &self,
         catalog: &Catalog,
-        ray: &Ray,
+        ray: &Prepared,
         (start, end): (f64, f64),
         scratch: &mut Scratch,
     ) -> Option<Hit> {
@@ -66,19 +67,20 @@ impl Body {
     }
 
     /// Whether the ray's origin is inside.
-    pub fn contains_origin(&self, catalog: &Catalog, ray: &Ray, scratch: &mut Scratch) -> bool {
-        match self.crossings(catalog, ray, (0.0, f64::INFINITY), scratch, ControlFlow::Break) {
+    pub fn contains_origin(&self, catalog: &Catalog, ray: &Prepared, scratch: &mut Scratch) -> bool {
+        let start = ray.inner(0.0);
+        match self.crossings(catalog, ray, (start, f64::INFINITY), scratch, ControlFlow::Break) {
             // Nothing is crossed on the way to infinity: there it is what it is everywhere on the ray.
             ControlFlow::Continue(()) => self.ends_inside(catalog, ray),
             ControlFlow::Break(Stop::Done(hit)) => !hit.entering,
             ControlFlow::Break(Stop::Leak) => {
-                self.canonical_spans(catalog, ray).iter().any(|span| span.enter_t() <= 0.0 && 0.0 < span.exit_t())
+                self.canonical_spans(catalog, ray).iter().any(|span| span.enter_t() <= start && start < span.exit_t())
             }
         }
     }
 
     /// The spans of the ray's whole line.
-    pub fn spans(&self, catalog: &Catalog, ray: &Ray, scratch: &mut Scratch) -> Spans {
+    pub fn spans(&self, catalog: &Catalog, ray: &Prepared, scratch: &mut Scratch) -> Spans {
         let mut spans: Option<SpansBuilder> = None;
         let stop: ControlFlow<Stop<()>> =
             self.crossings(catalog, ray, (f64::NEG_INFINITY, f64::INFINITY), scratch, |hit| {
@@ -96,14 +98,15 @@ impl Body {
     }
 
     /// The spans of the whole line, without the octree.
-    fn canonical_spans(&self, catalog: &Catalog, ray: &Ray) -> Spans {
-        with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.whole, ray))
+    fn canonical_spans(&self, catalog: &Catalog, ray: &Prepared) -> Spans {
+        let program = if ray.passes_by { &self.program.outer } else { &self.program.whole };
+        with_stack_for(self.nesting, || canonical::spans(catalog, program, &ray.ray))
     }
 
     /// Whether the line ends inside, far away from everything bounded. (Nearer, the outer program may have crossings that
     /// the solid has not.)
-    fn ends_inside(&self, catalog: &Catalog, ray: &Ray) -> bool {
-        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, ray));
+    fn ends_inside(&self, catalog: &Catalog, ray: &Prepared) -> bool {
+        let outer = with_stack_for(self.nesting, || canonical::spans(catalog, &self.program.outer, &ray.ray));
         outer.last().is_some_and(|span| span.exit.is_none())
     }
 
@@ -111,13 +114,13 @@ impl Body {
     fn crossings<B>(
         &self,
         catalog: &Catalog,
-        ray: &Ray,
+        ray: &Prepared,
         (start, end): (f64, f64),
         scratch: &mut Scratch,
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
         let Scratch { roots, counters } = scratch;
-        if self.accel == Accel::None {
+        if self.accel == Accel::None || ray.passes_by {
             counters.surface_tests += catalog.literals.len() as u64;
             for hit in ends(self.canonical_spans(catalog, ray)).filter(|hit| start < hit.t && hit.t <= end) {
                 if let ControlFlow::Break(done) = on_hit(hit) {
@@ -126,7 +129,7 @@ impl Body {
             }
             return ControlFlow::Continue(());
         }
-        let mut march = March::new(catalog, ray, roots, counters);
+        let mut march = March::new(catalog, &ray.ray, roots, counters);
         let stop = with_stack_for(self.nesting, || {
             let accelerator = self.octree.as_ref().map(|(octree, traversal)| (octree, traversal));
             march.along(&self.program, accelerator, (start, end), on_hit)

@@ -106,8 +106,8 @@ impl Tracer {
     pub fn body_hit(&self, body: usize, ray: &Ray, end: f64, scratch: &mut Scratch) -> Option<Hit> {
         let prepared = Prepared::new(ray, &self.bounds);
         let (start, end) = (prepared.inner(0.0), prepared.inner(end));
-        let hit = self.bodies[body].first_hit(&self.catalog, &prepared.ray, (start, end), scratch);
-        hit.map(|hit| prepared.outer_hit(hit))
+        let hit = self.bodies[body].first_hit(&self.catalog, &prepared, (start, end), scratch);
+        hit.and_then(|hit| prepared.outer_hit(hit))
     }
 
     /// Whether the point is in the solid. Points of the surface are in or out as half-open intervals have it.
@@ -119,7 +119,7 @@ impl Tracer {
     pub fn body_contains(&self, body: usize, point: Vec3, scratch: &mut Scratch) -> bool {
         // A direction that no face is likely to contain.
         let ray = Ray { origin: point, direction: Vec3::new(0.5773, 0.5131, 0.6351) };
-        self.bodies[body].contains_origin(&self.catalog, &ray, scratch)
+        self.bodies[body].contains_origin(&self.catalog, &Prepared::new(&ray, &self.bounds), scratch)
     }
 
     /// The spans of the ray's whole line in the solid, from minus to plus infinity.
@@ -139,7 +139,7 @@ impl Tracer {
     /// The spans of the ray's whole line in one body.
     pub fn body_spans(&self, body: usize, ray: &Ray, scratch: &mut Scratch) -> Spans {
         let prepared = Prepared::new(ray, &self.bounds);
-        prepared.outer_spans(self.bodies[body].spans(&self.catalog, &prepared.ray, scratch))
+        prepared.outer_spans(self.bodies[body].spans(&self.catalog, &prepared, scratch))
     }
 
     /// Position, normal and part at a hit of this ray.

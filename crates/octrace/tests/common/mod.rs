@@ -29,39 +29,46 @@ fn angle() -> impl Strategy<Value = f64> {
     prop_oneof![4 => Just(0.0), 2 => Just(90.0), 1 => Just(180.0), 1 => Just(45.0), 1 => Just(30.0), 1 => Just(17.0)]
 }
 
-/// Polyhedra of which the last two are not convex: tetrahedron, octahedron, L-shaped prism, square frame.
-pub fn polyhedra() -> [Solid; 4] {
-    let solid = |points: &[[f64; 3]], faces: &[&[u32]]| {
-        let points = points.iter().map(|&p| Vec3::from(p)).collect();
-        let faces = faces.iter().map(|f| f.to_vec()).collect();
-        Solid::primitive(Polyhedron::new(points, faces).expect("a sound polyhedron"))
+fn polyhedron(points: &[[f64; 3]], faces: &[Vec<u32>]) -> Solid {
+    let points = points.iter().map(|&p| Vec3::from(p)).collect();
+    Solid::primitive(Polyhedron::new(points, faces.to_vec()).expect("a sound polyhedron"))
+}
+
+/// A straight prism of height 1 over a polygon, counter-clockwise from above.
+fn prism(outline: &[[f64; 2]]) -> Solid {
+    let n = outline.len() as u32;
+    let points: Vec<[f64; 3]> = [0.0, 1.0].iter().flat_map(|&z| outline.iter().map(move |p| [p[0], p[1], z])).collect();
+    let mut faces = vec![(0..n).rev().collect::<Vec<u32>>(), (n..2 * n).collect()];
+    faces.extend((0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]));
+    polyhedron(&points, &faces)
+}
+
+/// A block as a shell, and another one, solid (`true`) or a hollow in the first.
+fn shells(low: [f64; 3], high: [f64; 3], solid: bool) -> Solid {
+    let corners = |low: [f64; 3], high: [f64; 3]| {
+        (0..8).map(move |i| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { low[axis] } else { high[axis] }))
     };
-    let tetrahedron = solid(
+    let points: Vec<[f64; 3]> = corners([0.0; 3], [2.0; 3]).chain(corners(low, high)).collect();
+    let block = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].map(Vec::from);
+    let mut other = block.clone().map(|face| face.iter().map(|i| i + 8).collect::<Vec<u32>>());
+    if !solid {
+        other.iter_mut().for_each(|face| face.reverse());
+    }
+    polyhedron(&points, &[block, other].concat())
+}
+
+/// Polyhedra; all but the first two are not convex.
+pub fn polyhedra() -> Vec<Solid> {
+    let tetrahedron = polyhedron(
         &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2], &[1, 2, 3]],
+        &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(Vec::from),
     );
-    let tips =
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
-    let octahedron =
-        solid(&tips, &[&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4], &[1, 0, 5], &[2, 1, 5], &[3, 2, 5], &[0, 3, 5]]);
-    let extruded = |outline: &[[f64; 2]]| -> Vec<[f64; 3]> {
-        [0.0, 1.0].iter().flat_map(|&z| outline.iter().map(move |p| [p[0], p[1], z])).collect()
-    };
-    let prism = solid(
-        &extruded(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]),
-        &[
-            &[5, 4, 3, 2, 1, 0],
-            &[6, 7, 8, 9, 10, 11],
-            &[0, 1, 7, 6],
-            &[1, 2, 8, 7],
-            &[2, 3, 9, 8],
-            &[3, 4, 10, 9],
-            &[4, 5, 11, 10],
-            &[5, 0, 6, 11],
-        ],
+    let octahedron = polyhedron(
+        &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]],
+        &[[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]].map(Vec::from),
     );
-    let square = |half: f64| [[-half, -half], [half, -half], [half, half], [-half, half]];
-    let frame_points: Vec<[f64; 3]> = [extruded(&square(1.0)), extruded(&square(0.5))].concat();
+    let ell = prism(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]]);
+    let square = |half: f64, z: f64| [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
     let frame_faces: Vec<Vec<u32>> = (0..4)
         .flat_map(|i| {
             let j = (i + 1) % 4;
@@ -70,15 +77,35 @@ pub fn polyhedra() -> [Solid; 4] {
                 .map(Vec::from)
         })
         .collect();
-    let frame = solid(&frame_points, &frame_faces.iter().map(Vec::as_slice).collect::<Vec<_>>());
-    [tetrahedron, octahedron, prism, frame]
+    let frame =
+        polyhedron(&[square(1.0, 0.0), square(1.0, 1.0), square(0.5, 0.0), square(0.5, 1.0)].concat(), &frame_faces);
+    let star: Vec<[f64; 2]> = (0..10)
+        .map(|i| {
+            let (sin, cos) = octrace::geom::sin_cos_deg(36.0 * f64::from(i));
+            let radius = if i % 2 == 0 { 1.0 } else { 0.4 };
+            [radius * cos, radius * sin]
+        })
+        .collect();
+    vec![
+        tetrahedron,
+        octahedron,
+        ell,
+        frame,
+        prism(&star),
+        // A closed hollow, one that reaches a wall, shells that touch in a face, in an edge, that overlap.
+        shells([0.5; 3], [1.5; 3], false),
+        shells([0.0, 0.5, 0.5], [1.0, 1.5, 1.5], false),
+        shells([2.0, 0.0, 0.0], [3.0, 2.0, 2.0], true),
+        shells([2.0, 2.0, 0.0], [3.0, 3.0, 2.0], true),
+        shells([1.0, 1.0, 0.0], [3.0, 3.0, 2.0], true),
+    ]
 }
 
 /// A primitive, placed on the lattice.
 pub fn lattice_primitive() -> impl Strategy<Value = Solid> {
     let shape = prop_oneof![
         4 => Just(Solid::block()),
-        1 => prop::sample::select(polyhedra().to_vec()),
+        1 => prop::sample::select(polyhedra()),
         2 => Just(Solid::sphere()),
         3 => Just(Solid::cylinder()),
         1 => Just(Solid::half_space()),

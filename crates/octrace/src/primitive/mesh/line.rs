@@ -19,8 +19,7 @@ pub(super) struct Line {
 
 impl Line {
     pub fn new(ray: &Ray) -> Self {
-        let d = ray.direction.abs();
-        let along = if d.x >= d.y && d.x >= d.z { 0 } else { if d.y >= d.z { 1 } else { 2 } };
+        let along = ray.direction.largest_axis();
         let (mut u, mut v) = ((along + 1) % 3, (along + 2) % 3);
         let advance = ray.direction[along];
         // Looking the other way mirrors the picture; exchanging its axes undoes that.
@@ -35,7 +34,9 @@ impl Line {
     fn project(&self, p: Vec3) -> [f64; 2] {
         let [u, v, w] = self.axes;
         let along = p[w] - self.origin[w];
-        [p[u] - self.origin[u] - self.shear[0] * along, p[v] - self.origin[v] - self.shear[1] * along]
+        let place = [p[u] - self.origin[u] - self.shear[0] * along, p[v] - self.origin[v] - self.shear[1] * along];
+        // Decisions are exact as long as no product underflows.
+        place.map(|x| if x.abs() < TINY { 0.0 } else { x })
     }
 
     /// Whether the line may pass through a triangle with corners in this box: false only where [`Self::crosses`] is
@@ -49,7 +50,7 @@ impl Line {
         let offset = [u, v, w].map(|axis| center[axis] - self.origin[axis]);
         let [x, y] = [0, 1].map(|i| offset[i] - self.shear[i] * offset[2]);
         let [steep_x, steep_y] = self.shear.map(f64::abs);
-        let room = ROOM * (center.max_abs() + half.max_abs() + self.origin.max_abs());
+        let room = ROOM * (center.max_abs() + half.max_abs() + self.origin.max_abs()) + TINY;
         let across = self.shear[0] * offset[1] - self.shear[1] * offset[0];
         x.abs() <= half[u] + steep_x * half[w] + room
             && y.abs() <= half[v] + steep_y * half[w] + room
@@ -68,6 +69,9 @@ impl Line {
         (is_left(b, c)? == left && is_left(c, a)? == left).then_some(!left)
     }
 }
+
+/// Products of numbers from here on have all their digits, and so have the errors of these products.
+const TINY: f64 = 1e-140;
 
 /// Rounding errors in this module are below eight units in the last place of the largest number.
 const ROOM: f64 = 16.0 * f64::EPSILON;

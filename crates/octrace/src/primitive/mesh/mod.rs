@@ -211,16 +211,22 @@ impl Mesh {
 
 /// The parameters for which the line is in the box grown by `slack`, which it is known to pass.
 fn reach(ray: &Ray, bounds: &Bounds, slack: f64) -> (f64, f64) {
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    for axis in 0..3 {
+    let slab = |axis: usize| {
         let (o, d) = (ray.origin[axis], ray.direction[axis]);
-        let a = (bounds.min[axis] - slack - o) / d;
-        let b = (bounds.max[axis] + slack - o) / d;
-        // Along a line parallel to the axis' planes this is NaN or infinite, and min and max let it pass.
-        low = low.max(a.min(b));
-        high = high.min(a.max(b));
+        let (a, b) = ((bounds.min[axis] - slack - o) / d, (bounds.max[axis] + slack - o) / d);
+        (a.min(b), a.max(b))
+    };
+    let along = ray.direction.largest_axis();
+    let (mut low, mut high) = slab(along);
+    for (a, b) in [(along + 1) % 3, (along + 2) % 3].map(slab) {
+        // Rounding may put a line beside the box, though only just. The interval never becomes empty, nor infinite.
+        // Along a line parallel to the axis' planes these are infinite or NaN.
+        if a.is_finite() && b.is_finite() {
+            low = low.max(a).min(high);
+            high = high.min(b).max(low);
+        }
     }
-    if low <= high { (low, high) } else { (high, low) }
+    (low, high)
 }
 
 /// Gives faces without a surface of their own the surface of a neighbour, or else of the first face that has one.

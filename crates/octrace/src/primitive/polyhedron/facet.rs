@@ -110,8 +110,7 @@ impl Cutter {
 
 /// The polygon seen against its normal, counter-clockwise: the coordinate along the normal's largest part is dropped.
 fn flatten(coordinates: &[Vec3], normal: Vec3) -> Vec<[f64; 2]> {
-    let n = normal.abs();
-    let axis = if n.x >= n.y && n.x >= n.z { 0 } else { if n.y >= n.z { 1 } else { 2 } };
+    let axis = normal.largest_axis();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     let first = coordinates[0];
     let pair = |p: Vec3| if normal[axis] > 0.0 { [p[u], p[v]] } else { [p[v], p[u]] };
