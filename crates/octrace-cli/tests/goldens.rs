@@ -9,6 +9,7 @@ use octrace::film::Film;
 use octrace::model::frame_all;
 use octrace::octree::BuildOptions;
 use octrace::query::occupied_bounds;
+use octrace::traverse::TraversalKind;
 use octrace::{Accel, Camera, Projection, Scene, Tracer, TracerOptions, Vec3};
 use octrace_read::{ReadOptions, Source, read_scene};
 use std::fs;
@@ -70,6 +71,11 @@ fn check(name: &str, file: &str, from: From) {
         let accelerated = film(&scene, from, &options, threads);
         let differing = pictures::differing(&accelerated, &expected);
         assert_eq!(differing, 0, "{name}: p {leaf_surfaces}, depth {depth:?}, {threads} threads: pixels differ");
+    }
+    for traversal in TraversalKind::ALL {
+        let options = TracerOptions { traversal, ..TracerOptions::default() };
+        let accelerated = film(&scene, from, &options, 2);
+        assert_eq!(pictures::differing(&accelerated, &expected), 0, "{name}: {traversal}: pixels differ");
     }
     compare(name, &expected);
 }
