@@ -1,7 +1,5 @@
 //! What a scene holds besides its solid: materials, lights, camera, surroundings; and what else is known of the file.
 
-mod common;
-
 use octrace::{Camera, Light, Material, Projection, Rgb, Scene, Vec3};
 use octrace_read::{Dialect, Loaded, ReadOptions, Source, read_scene};
 
