@@ -2,9 +2,11 @@
 //! in `values`), so that the commands meet nothing but plain, sound data.
 
 use crate::framing::{Framing, ProjectionKind};
+use crate::input;
 use crate::picture::BitDepth;
 use crate::values::{self, Pixel, Size, Viewpoint};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use octrace::film::Background;
 use octrace::octree::BuildOptions;
@@ -12,7 +14,7 @@ use octrace::trace::{Accel, TracerOptions};
 use octrace::traverse::TraversalKind;
 use octrace_read::Facets;
 use std::fmt::Debug;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 const EXIT_CODES: &str = "\
@@ -56,6 +58,24 @@ pub struct Arguments {
     pub command: Command,
 }
 
+impl Arguments {
+    /// The process's arguments; where they are wrong, says so and ends the process.
+    pub fn from_command_line() -> Self {
+        Self::try_parse().unwrap_or_else(|error| with_tip(error).exit())
+    }
+}
+
+/// Whoever only names a file most likely wants to see it.
+fn with_tip(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand)
+        && input::is_model(Path::new(word))
+    {
+        let tip = format!("a command comes first: octrace render {word}");
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    error
+}
+
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -81,9 +101,9 @@ pub struct ReadArgs {
     /// round, `smooth` makes everything round, `written` makes exactly the facets that OpenSCAD would
     #[arg(long, value_name = "HOW", default_value = "auto", value_parser = names::<Facets>(["auto", "smooth", "written"]))]
     pub facets: Facets,
-    /// Make surfaces coincide that differ by less than this, relative to the model's size; 0 switches it off. The
-    /// default makes up for the six digits of OpenSCAD's dumps
-    #[arg(long, value_name = "RATIO", value_parser = values::relative_or_zero)]
+    /// Make surfaces coincide that differ by less than this, relative to the model's size; 0 switches it off
+    /// [default: 2e-6 for .csg and .scad, which makes up for the six digits of dumps; 0 for .oct]
+    #[arg(long, value_name = "RATIO", value_parser = values::relative_or_zero, allow_hyphen_values = true)]
     pub snap: Option<f64>,
     /// Leave out what is not supported, saying what, instead of failing
     #[arg(long)]
@@ -104,14 +124,13 @@ pub struct TraceArgs {
     #[arg(long, value_name = "NAME", default_value_t = TraversalKind::ALL[0], value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
     pub traversal: TraversalKind,
     /// How often the octree's cells are divided at most [default: by the number of primitives]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20))]
+    #[arg(long, value_name = "N", value_parser = values::count(0..=20))]
     pub octree_depth: Option<u32>,
     /// How many different surfaces of primitives (a block has six, a ball one) a cell may hold without being divided
-    /// [default: 6]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
-    pub leaf_primitives: Option<u32>,
+    #[arg(long, value_name = "N", default_value_t = BuildOptions::default().leaf_surfaces as u32, value_parser = values::count(1..=64))]
+    pub leaf_primitives: u32,
     /// How many threads to use [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = values::count(1..=1024))]
     pub threads: Option<u32>,
 }
 
@@ -120,13 +139,13 @@ pub struct TraceArgs {
 #[command(next_help_heading = "View")]
 pub struct ViewArgs {
     /// Width and height in pixels; also OpenSCAD's `--imgsize W,H`
-    #[arg(long, alias = "imgsize", value_name = "WxH", default_value = "1024x768")]
+    #[arg(long, alias = "imgsize", value_name = "WxH", default_value = "1024x768", allow_hyphen_values = true)]
     pub size: Size,
     /// Six numbers, `eye_x,y,z,center_x,y,z`, or seven, `translate_x,y,z,rot_x,y,z,distance`, as in OpenSCAD
     /// [default: the file's camera, or a view of everything]
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     pub camera: Option<Viewpoint>,
-    /// Move the camera back or forth until everything fits in
+    /// Move the camera as far away as OpenSCAD does to see everything
     #[arg(long)]
     pub viewall: bool,
     /// Look at the middle of everything
@@ -170,10 +189,10 @@ pub struct RenderArgs {
 #[command(next_help_heading = "Picture")]
 pub struct LookArgs {
     /// Rays through each pixel, against jagged edges
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = values::count(1..=65_536))]
     pub samples: u32,
     /// How often light is followed through reflections and refractions
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=64))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = values::count(0..=64))]
     pub max_bounces: u32,
     /// A name, #rrggbb, three numbers from 0 to 1 as in 1,0.5,0, or `transparent` [default: the file's, or light grey]
     #[arg(long, value_name = "COLOR", value_parser = background)]
@@ -199,7 +218,7 @@ pub struct CheckArgs {
     #[command(flatten)]
     pub read: ReadArgs,
     /// Print nothing but errors
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
 }
 
@@ -212,7 +231,7 @@ pub struct MeasureArgs {
     #[arg(long)]
     pub json: bool,
     /// How far the volume may be off, relative to itself
-    #[arg(long, value_name = "RATIO", default_value = "1e-4", value_parser = values::relative_above_zero)]
+    #[arg(long, value_name = "RATIO", default_value = "1e-4", value_parser = values::relative_above_zero, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// How files are read.
     #[command(flatten)]
@@ -221,7 +240,7 @@ pub struct MeasureArgs {
     #[command(flatten)]
     pub trace: TraceArgs,
     /// Print nothing but errors and the result
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
 }
 
@@ -237,7 +256,7 @@ pub struct InspectArgs {
     #[arg(long)]
     pub program: bool,
     /// Explain one pixel, counted from 0 at the upper left: cells visited, spans, hit
-    #[arg(long, value_name = "X,Y")]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub pixel: Option<Pixel>,
     /// Which picture the pixel belongs to.
     #[command(flatten)]
@@ -249,7 +268,7 @@ pub struct InspectArgs {
     #[command(flatten)]
     pub trace: TraceArgs,
     /// Print nothing but errors and what was asked for
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
 }
 
@@ -280,13 +299,12 @@ impl ViewArgs {
 impl TraceArgs {
     /// The core's options, for a scene with the import tolerance `snap`.
     pub fn options(&self, snap: f64) -> TracerOptions {
-        let defaults = BuildOptions::default();
         TracerOptions {
             accel: self.accel,
             traversal: self.traversal,
             octree: BuildOptions {
-                leaf_surfaces: self.leaf_primitives.map_or(defaults.leaf_surfaces, |n| n as usize),
-                depth: self.octree_depth.or(defaults.depth),
+                leaf_surfaces: self.leaf_primitives as usize,
+                depth: self.octree_depth.or(BuildOptions::default().depth),
             },
             snap,
         }
@@ -370,6 +388,13 @@ mod tests {
         ] {
             assert!(render(words).is_err(), "{words:?}");
         }
+    }
+
+    #[test]
+    fn a_file_in_place_of_a_command_gets_a_tip() {
+        let message = |word| with_tip(Arguments::try_parse_from(["octrace", word]).unwrap_err()).to_string();
+        assert!(message("part.csg").contains("octrace render part.csg"), "{}", message("part.csg"));
+        assert!(!message("part").contains("octrace render"), "{}", message("part"));
     }
 
     #[test]

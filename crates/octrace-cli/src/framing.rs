@@ -2,14 +2,15 @@
 
 use crate::values::Viewpoint;
 use octrace::model::frame_all;
-use octrace::{Bounds, Camera, Projection, Vec3};
+use octrace::query::{occupied_bounds, occupied_bounds_closely};
+use octrace::{Bounds, Camera, Projection, Tracer};
 
 /// What the command line says about the camera.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Framing {
     /// `--camera`.
     pub viewpoint: Option<Viewpoint>,
-    /// `--viewall`: go as far away as needed to see everything.
+    /// `--viewall`: go as far away as OpenSCAD does to see everything.
     pub view_all: bool,
     /// `--autocenter`: look at the middle of everything.
     pub auto_center: bool,
@@ -31,10 +32,17 @@ pub enum ProjectionKind {
 const PERSPECTIVE: Projection = Projection::Perspective { fov_deg: Camera::OPENSCAD_FOV_DEG };
 
 impl Framing {
+    /// The camera for a picture of what `tracer` traces, of `size_px`, from a file that names the camera `in_file`.
+    pub fn camera_for(&self, tracer: &Tracer, in_file: Option<Camera>, size_px: (u32, u32)) -> Camera {
+        let bounds = if self.view_all { occupied_bounds_closely(tracer) } else { occupied_bounds(tracer) };
+        self.camera(in_file, &bounds, size_px)
+    }
+
     /// The camera for a film of `size_px`, for a solid within `bounds` in a file that names the camera `in_file`.
-    pub fn camera(&self, in_file: Option<Camera>, bounds: &Bounds, size_px: (u32, u32)) -> Camera {
+    fn camera(&self, in_file: Option<Camera>, bounds: &Bounds, size_px: (u32, u32)) -> Camera {
         let Some(named) = self.viewpoint.map(Viewpoint::camera).or(in_file) else {
-            return frame_all(bounds, None, self.projected(PERSPECTIVE, 1.0), size_px);
+            let all = frame_all(bounds, None, self.projected(PERSPECTIVE, 1.0), size_px);
+            return if self.view_all { from_afar(all, bounds) } else { all };
         };
         let distance = (named.at - named.eye).length();
         let mut camera = Camera { projection: self.projected(named.projection, distance), ..named };
@@ -44,8 +52,7 @@ impl Framing {
             camera = Camera { eye: camera.eye + shift, at: camera.at + shift, ..camera };
         }
         if self.view_all && something {
-            let around_target = if self.auto_center { *bounds } else { centered(bounds, camera.at) };
-            camera = frame_all(&around_target, Some(&camera), camera.projection, size_px);
+            camera = from_afar(camera, bounds);
         }
         if self.viewpoint.is_some() && something {
             camera = behind_nothing(camera, bounds);
@@ -66,10 +73,24 @@ impl Framing {
     }
 }
 
-/// The smallest box about `center` that holds `bounds`.
-fn centered(bounds: &Bounds, center: Vec3) -> Bounds {
-    let reach = (bounds.min - center).abs().max((bounds.max - center).abs());
-    Bounds::new(center - reach, center + reach)
+/// The camera moved as far away from its target as OpenSCAD does: a ball about the target, in which is a ball about
+/// everything, just fits between the lower and the upper edge.
+fn from_afar(camera: Camera, bounds: &Bounds) -> Camera {
+    if bounds.is_empty() || !bounds.is_bounded() {
+        return camera;
+    }
+    let radius = (bounds.center() - camera.at).length() + bounds.diagonal() / 2.0;
+    let fov_deg = match camera.projection {
+        Projection::Perspective { fov_deg } => fov_deg,
+        Projection::Orthographic { .. } => Camera::OPENSCAD_FOV_DEG,
+    };
+    let (sin, cos) = octrace::geom::sin_cos_deg(fov_deg / 2.0);
+    let distance = radius / sin;
+    let projection = match camera.projection {
+        Projection::Orthographic { .. } => Projection::Orthographic { height: 2.0 * distance * sin / cos },
+        perspective => perspective,
+    };
+    Camera { eye: camera.at - camera.frame().2 * distance, projection, ..camera }
 }
 
 /// As in OpenSCAD, an orthographic camera sees what is behind its eye as well: the eye steps back until nothing is.
@@ -89,6 +110,7 @@ fn behind_nothing(camera: Camera, bounds: &Bounds) -> Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use octrace::Vec3;
 
     const BOX: Bounds = Bounds::new(Vec3::new(2.0, 2.0, 2.0), Vec3::new(4.0, 4.0, 4.0));
 
@@ -119,6 +141,19 @@ mod tests {
         assert!(close(far.at, Vec3::ZERO) && far.eye.y < -8.0 && far.eye.x.abs() < 1e-12);
         let centered = Framing { view_all: true, auto_center: true, ..framing("0,-1,0,0,0,0") };
         assert!(close(centered.camera(None, &BOX, (100, 100)).at, BOX.center()));
+    }
+
+    /// As measured on pictures of OpenSCAD 2021.01.
+    #[test]
+    fn view_all_goes_as_far_as_openscad() {
+        let framing = Framing { view_all: true, ..framing("0,-1,0,0,0,0") };
+        let radius = 27.0_f64.sqrt() + 3.0_f64.sqrt();
+        let angle = 11.25_f64.to_radians();
+        let camera = framing.camera(None, &BOX, (400, 300));
+        assert!((camera.eye.y + radius / libm::sin(angle)).abs() < 1e-9, "{camera:?}");
+        let flat = Framing { projection: Some(ProjectionKind::Orthographic), ..framing }.camera(None, &BOX, (400, 300));
+        let Projection::Orthographic { height } = flat.projection else { panic!("{flat:?}") };
+        assert!((height - 2.0 * radius / libm::cos(angle)).abs() < 1e-9, "{flat:?}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use octrace_read::scad::{self, ScadError};
 use octrace_read::{Diagnostic, Loaded, ReadOptions, Source, read_scene};
 use std::fs;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A file that was read, whatever became of it.
 pub struct Input {
@@ -18,6 +18,24 @@ pub struct Input {
     pub diagnostics: Vec<Diagnostic>,
     /// What it describes, unless it has errors.
     pub loaded: Option<Loaded>,
+    /// The OpenSCAD program that the text is the dump of, if it is one.
+    program: Option<PathBuf>,
+}
+
+impl Input {
+    /// Says what there is to say about it, to people.
+    pub fn report(&self, session: &Session) {
+        diagnostics::print(&self.source, &self.diagnostics, session.show);
+        if let (Some(program), false) = (&self.program, self.diagnostics.is_empty()) {
+            let name = program.display();
+            session.remark(&format!("note: these lines are of the dump that `openscad -o dump.csg {name}` writes"));
+        }
+    }
+}
+
+/// Whether a file's name says that it describes a solid.
+pub fn is_model(file: &Path) -> bool {
+    file.extension().is_some() && language(file).is_ok()
 }
 
 /// Which language a file is in, going by its name.
@@ -30,28 +48,34 @@ enum Language {
 
 /// Reads and checks a file; `-` is standard input.
 pub fn open(file: &Path, args: &ReadArgs, session: &Session) -> Result<Input, Failure> {
-    let source = match language(file)? {
+    let language = language(file)?;
+    let source = match language {
         Language::Tree if !args.define.is_empty() => {
             let name = file.display();
             return Err(Failure::Usage(format!("-D is for .scad files: {name} has no variables left to set")));
         }
-        Language::Tree => Source::new(shown_name(file), bytes(file)?),
+        Language::Tree => {
+            let _busy = session.busy("reading");
+            Source::new(shown_name(file), bytes(file)?)
+        }
         Language::Scad => evaluate(file, args, session)?,
     };
+    let program = matches!(language, Language::Scad).then(|| file.to_owned());
     let options = ReadOptions {
         facets: args.facets,
         skip_unsupported: args.skip_unsupported,
         snap: args.snap,
         ..ReadOptions::default()
     };
+    let _busy = session.busy("reading");
     let checked = read_scene(&source, &options);
-    Ok(Input { source, diagnostics: checked.diagnostics, loaded: checked.value })
+    Ok(Input { source, diagnostics: checked.diagnostics, loaded: checked.value, program })
 }
 
 /// Reads a file, says what there is to say about it, and goes on only if it has no errors.
 pub fn load(file: &Path, args: &ReadArgs, session: &Session) -> Result<(Source, Loaded), Failure> {
     let input = open(file, args, session)?;
-    diagnostics::print(&input.source, &input.diagnostics, session.show);
+    input.report(session);
     let loaded = input.loaded.ok_or(Failure::Input)?;
     Ok((input.source, loaded))
 }
@@ -65,6 +89,7 @@ fn evaluate(file: &Path, args: &ReadArgs, session: &Session) -> Result<Source, F
     let evaluated = {
         // Ctrl-C ends OpenSCAD too; the temporary files that it works with are still to be removed.
         let _held_back = session.interrupt.hold_back();
+        let _busy = session.busy("OpenSCAD is at work");
         scad::evaluate(file, &args.define)
     };
     if session.interrupt.happened() {

@@ -2,8 +2,9 @@
 //! either way.
 
 use crate::failure::Failure;
+use crate::output::{clear_line, say_error};
 use octrace::exec::CancelToken;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
@@ -17,6 +18,7 @@ pub struct Interrupt {
     token: CancelToken,
     listeners: Arc<AtomicUsize>,
     files: Arc<Mutex<()>>,
+    announced: Arc<AtomicBool>,
 }
 
 /// While this lives, somebody polls the token.
@@ -60,6 +62,15 @@ impl Interrupt {
         self.token.is_cancelled()
     }
 
+    /// Says that the process was interrupted, if that was not said yet.
+    pub fn announce(&self) {
+        if !self.announced.swap(true, Ordering::SeqCst) {
+            // There may be a progress bar.
+            clear_line();
+            say_error(&Failure::Interrupted.to_string());
+        }
+    }
+
     /// Runs in a thread of its own.
     fn happen(&self) {
         self.token.cancel();
@@ -68,6 +79,7 @@ impl Interrupt {
         }
         // Kept to the end, so that no temporary file can appear any more.
         let _no_files = self.hold_back();
+        self.announce();
         std::process::exit(Failure::INTERRUPTED.into());
     }
 }

@@ -10,12 +10,12 @@ mod interrupt;
 mod output;
 mod picture;
 mod progress;
+mod rounding;
 mod session;
 mod stats;
 mod tree;
 mod values;
 
-use clap::Parser;
 use std::process::ExitCode;
 use std::thread;
 
@@ -26,7 +26,7 @@ const STACK_BYTES: usize = 256 << 20;
 const PANICKED: u8 = 101;
 
 fn main() -> ExitCode {
-    let arguments = args::Arguments::parse();
+    let arguments = args::Arguments::from_command_line();
     let work = move || commands::run(&arguments.command);
     match thread::Builder::new().name("octrace".into()).stack_size(STACK_BYTES).spawn(work) {
         Ok(worker) => worker.join().unwrap_or(PANICKED).into(),

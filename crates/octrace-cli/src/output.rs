@@ -90,6 +90,14 @@ pub fn say(text: &str) {
     let _ = writeln!(stderr, "{text}");
 }
 
+/// Empties the line that the cursor is in, if standard error is a terminal.
+pub fn clear_line() {
+    let mut stderr = io::stderr().lock();
+    if stderr.is_terminal() {
+        let _ = write!(stderr, "\r\x1b[K");
+    }
+}
+
 /// Says that something went wrong, as clap does for wrong arguments.
 pub fn say_error(text: &str) {
     let style = anstyle::AnsiColor::Red.on_default().bold();

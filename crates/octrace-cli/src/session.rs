@@ -4,7 +4,7 @@ use crate::args::TraceArgs;
 use crate::diagnostics::Show;
 use crate::interrupt::{Interrupt, Listening};
 use crate::output::say;
-use crate::progress::Bar;
+use crate::progress::{Bar, Spinner};
 use octrace::Tracer;
 use octrace::exec::{Exec, Progress, Silent};
 use std::sync::Arc;
@@ -26,11 +26,16 @@ impl Session {
     /// How the core is to work. While the second value lives, Ctrl-C is left to the core.
     pub fn exec(&self, args: &TraceArgs) -> (Exec, Listening) {
         let progress: Arc<dyn Progress> = match self.show {
-            Show::All => Arc::new(Bar::new()),
+            Show::All => Arc::new(Bar::new("compiling")),
             Show::Errors => Arc::new(Silent),
         };
         let threads = args.threads.unwrap_or(0) as usize;
         (Exec { threads, cancel: self.interrupt.token(), progress }, self.interrupt.listen())
+    }
+
+    /// While the value lives, people who wait see what for.
+    pub fn busy(&self, with: &'static str) -> Option<Spinner> {
+        (self.show == Show::All).then(|| Spinner::start(with))
     }
 
     /// Says what the import tolerance did to the solid, if it did anything.

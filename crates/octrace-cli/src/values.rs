@@ -2,6 +2,7 @@
 //! error that names the option.
 
 use octrace::{Camera, Projection, Rgb, Vec3};
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// Width and height of a picture in pixels.
@@ -152,6 +153,14 @@ pub fn definition(text: &str) -> Result<String, String> {
     }
 }
 
+/// A whole number within limits.
+pub fn count(limits: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync + 'static {
+    move |text| match text.trim().parse() {
+        Ok(n) if limits.contains(&n) => Ok(n),
+        _ => Err(format!("write a whole number from {} to {}", limits.start(), limits.end())),
+    }
+}
+
 /// A number that is `0 <= x < 1`: a tolerance relative to the model's size, possibly none.
 pub fn relative_or_zero(text: &str) -> Result<f64, String> {
     relative(text, |v| (0.0..1.0).contains(&v)).ok_or_else(|| "write a number from 0 to below 1, as in 2e-6".into())
@@ -208,6 +217,15 @@ mod tests {
         }
         for wrong in ["whiteish", "1,1", "2,0,0", "#ff000080", ""] {
             assert!(color(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn counts_have_limits() {
+        let count = count(1..=64);
+        assert_eq!((count("1"), count(" 64 ")), (Ok(1), Ok(64)));
+        for wrong in ["0", "65", "-1", "1.5", "x", ""] {
+            assert_eq!(count(wrong), Err("write a whole number from 1 to 64".into()), "{wrong}");
         }
     }
 

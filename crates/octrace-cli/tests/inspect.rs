@@ -31,4 +31,6 @@ fn pixels_outside_of_the_picture_are_refused() {
     let folder = Folder::with(&[("plate.csg", PLATE)]);
     let run = folder.run(&["inspect", "plate.csg", "--size=10x10", "--pixel=10,0"]).expect(2);
     assert!(run.stderr.contains("outside of the picture"), "{}", run.stderr);
+    let run = folder.run(&["inspect", "plate.csg", "--pixel", "-1,0"]).expect(2);
+    assert!(run.stderr.contains("counted from 0"), "{}", run.stderr);
 }

@@ -24,8 +24,9 @@ fn a_plate_with_a_hole() {
 fn for_people_there_is_a_table() {
     let folder = Folder::with(&[("plate.csg", PLATE)]);
     let run = folder.run(&["measure", "plate.csg", "--tolerance=1e-2"]).expect(0);
-    for word in ["volume", "centroid", "size"] {
-        assert!(run.text().contains(word), "{}", run.text());
+    assert!(run.text().starts_with("volume    54"), "{}", run.text());
+    for line in ["\nfrom      0 0 0 ± ", "\nto        40 30 5\n", "\nsize      40 30 5\n"] {
+        assert!(run.text().contains(line), "{}", run.text());
     }
 }
 

@@ -136,6 +136,12 @@ fn what_cannot_be_read_or_written_is_named() {
         (&["render", "plate.csg", "-o", "no/a.png"], 3, "cannot write no/a.png: there is no folder no"),
         (&["render", "solid.stl"], 1, ".stl files are not supported"),
         (&["render", "-"], 2, "say with -o"),
+        (&["render", "plate.csg", "-o", "./plate.csg"], 2, "would replace the file that it is of"),
+        (&["render", "plate.csg", "-o", "part.csg"], 2, "pictures are PNG files"),
+        (&["render", "plate.csg", "-o", "a.JPG"], 2, "name it a.png"),
+        (&["render", "plate.csg", "--size=-5x5"], 2, "as in 1024x768"),
+        (&["render", "plate.csg", "--samples=x"], 2, "a whole number from 1 to 65536"),
+        (&["plate.csg"], 2, "octrace render plate.csg"),
         (&["render", "plate.csg", "-D", "a=1"], 2, "-D is for .scad files"),
         (&["render", "plate.csg", "--size=0x0"], 2, "at least one pixel"),
         (&["render", "plate.csg", "--size=99999x99999"], 2, "are the most"),
@@ -144,13 +150,15 @@ fn what_cannot_be_read_or_written_is_named() {
         assert!(run.stderr.contains(expected), "{words:?}: {}", run.stderr);
     }
     assert_eq!(folder.names(), ["part.csg", "plate.csg", "solid.stl"]);
+    assert_eq!(fs::read_to_string(folder.path("plate.csg")).unwrap(), PLATE);
 }
 
 #[test]
 fn no_file_at_all_crashes_it() {
     let deep = "group() {".repeat(100_000) + &"}".repeat(100_000);
     let deeper = "difference() { cube(1); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) ".repeat(50_000);
-    for text in ["", "}", "cube(", "\0\x01\x02", "multmatrix([[", &deep, &deeper, &"(".repeat(1_000_000)] {
+    let far = "cube(1e300); multmatrix([[1,0,0,1e308],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(1); cube(1e29);";
+    for text in [far, "", "}", "cube(", "\0\x01\x02", "multmatrix([[", &deep, &deeper, &"(".repeat(1_000_000)] {
         let folder = Folder::with(&[("a.csg", text)]);
         let run = folder.run(&["render", "a.csg", SMALL]);
         assert!(run.code == 0 || run.code == 1, "{} on {:.40}: {:.2000}", run.code, text, run.stderr);

@@ -38,6 +38,7 @@ fn findings_are_about_the_dump() {
     let folder = Folder::with(&[("a.scad", "hull() cube();")]);
     let result = run(&folder, &["check", "a.scad"], "echo 'hull();' > \"$2\"").expect(1);
     assert!(result.stderr.contains("a.scad (dump):1:1"), "{}", result.stderr);
+    assert!(result.stderr.contains("`openscad -o dump.csg a.scad` writes"), "{}", result.stderr);
 }
 
 #[test]

@@ -28,12 +28,14 @@ pub struct Diagnostic {
     pub notes: Vec<(SourceRange, String)>,
     /// What would be right.
     pub help: Option<String>,
+    /// How many of this kind it stands for: 1, but for the last one where there are too many to say each.
+    pub count: usize,
 }
 
 impl Diagnostic {
     /// A diagnostic without notes and help.
     pub fn new(severity: Severity, code: &'static str, at: SourceRange, message: impl Into<String>) -> Self {
-        Self { severity, code, message: message.into(), at, notes: Vec::new(), help: None }
+        Self { severity, code, message: message.into(), at, notes: Vec::new(), help: None, count: 1 }
     }
 
     /// An error without notes and help.
@@ -136,7 +138,8 @@ impl Collector {
             if c.count > Self::KEPT_PER_CODE && !Self::NEVER_SHORTENED.contains(&c.code) {
                 let more = c.count - Self::KEPT_PER_CODE;
                 let message = format!("and {more} more of this kind, from here on");
-                self.kept.push(Diagnostic::new(c.severity, c.code, c.first_left_out, message));
+                let rest = Diagnostic::new(c.severity, c.code, c.first_left_out, message);
+                self.kept.push(Diagnostic { count: more, ..rest });
             }
         }
         self.kept.sort_by_key(|d| d.at.start);
@@ -161,5 +164,6 @@ mod tests {
         assert_eq!(noise.len(), 51);
         assert_eq!(noise[50].message, "and 30 more of this kind, from here on");
         assert_eq!(noise[50].at, SourceRange::new(50, 51));
+        assert_eq!(noise.iter().map(|d| d.count).sum::<usize>(), 80);
     }
 }

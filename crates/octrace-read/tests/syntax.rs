@@ -123,7 +123,7 @@ fn what_is_missing_is_named() {
     check("{ cube(); }", &[("not-a-node", "{"), ("unmatched-brace", "}")]);
     check("union() { cube(); ", &[("unclosed-block", "")]);
     check("union() { cube([1, 2", &[("unclosed-bracket", "")]);
-    check("union() { cube(size = ", &[("unexpected-end", "")]);
+    check("union() { cube(size = ", &[("unclosed-parenthesis", "")]);
 }
 
 #[test]

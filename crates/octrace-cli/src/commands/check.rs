@@ -27,7 +27,7 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<(), Failure> {
         if args.json {
             findings.extend(diagnostics::json(&input.source, &input.diagnostics));
         } else {
-            diagnostics::print(&input.source, &input.diagnostics, session.show);
+            input.report(session);
             if input.diagnostics.is_empty() {
                 session.remark(&format!("{}: nothing to complain of", input.source.name()));
             }

@@ -7,7 +7,6 @@ use crate::output::write_stdout;
 use crate::session::Session;
 use crate::tree::{self, NodeCounts};
 use crate::values::Pixel;
-use octrace::query::occupied_bounds;
 use octrace::{Bounds, Scene, Tracer};
 use octrace_read::{Loaded, Source};
 use std::fmt::Write;
@@ -71,13 +70,11 @@ fn summary(source: &Source, loaded: &Loaded, tracer: &Tracer) -> String {
         ),
     );
     let report = tracer.compile_report();
-    line(
-        "snapping",
-        format!(
-            "within {:.1e}; surfaces moved {}, the farthest by {:.1e}",
-            report.tolerance, report.snapped_surfaces, report.largest_move
-        ),
-    );
+    let moved = match report.snapped_surfaces {
+        0 => "nothing was moved".to_owned(),
+        n => format!("surfaces moved {n}, the farthest by {:.1e}", report.largest_move),
+    };
+    line("snapping", format!("within {:.1e}; {moved}", report.tolerance));
     match stats.octree {
         None => line("octree", "none".into()),
         Some(octree) => {
@@ -109,7 +106,7 @@ fn bounds(bounds: &Bounds, unbounded: bool) -> String {
 /// The ray through the middle of a pixel, explained.
 fn explain(pixel: Pixel, args: &InspectArgs, scene: &Scene, tracer: &Tracer) -> String {
     let (width_px, height_px) = args.view.size_px();
-    let camera = args.view.framing().camera(scene.camera, &occupied_bounds(tracer), (width_px, height_px));
+    let camera = args.view.framing().camera_for(tracer, scene.camera, (width_px, height_px));
     let ray = camera.rays(width_px, height_px).ray(f64::from(pixel.x) + 0.5, f64::from(pixel.y) + 0.5);
     format!("\npixel {},{}\n{}", pixel.x, pixel.y, tracer.explain(&ray))
 }

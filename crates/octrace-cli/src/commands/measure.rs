@@ -4,6 +4,7 @@ use crate::args::MeasureArgs;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::write_stdout;
+use crate::rounding::{error_of, rounded};
 use crate::session::Session;
 use octrace::query::{MeasureError, MeasureOptions, Measures, measure};
 use octrace::{Tracer, Vec3};
@@ -73,19 +74,25 @@ fn report<'a>(source: &'a octrace_read::Source, args: &MeasureArgs, measures: &M
     }
 }
 
-/// For people: values in full, errors in two digits.
+/// For people: no digits without a meaning.
 fn table(report: &Report) -> String {
-    let mut lines = vec![format!("volume    {} ± {:.1e}", report.volume, report.volume_error)];
-    if let (Some([x, y, z]), Some(error)) = (report.centroid, report.centroid_error) {
-        lines.push(format!("centroid  {x} {y} {z} ± {error:.1e}"));
+    let mut text = String::new();
+    let mut line = |name: &str, values: &[f64], error: f64, tail: &str| {
+        let values: Vec<String> = values.iter().map(|&value| rounded(value, error)).collect();
+        text += &format!("{name:<10}{}{tail}\n", values.join(" "));
+    };
+    let plus_minus = |error: f64| format!(" ± {}", error_of(error));
+    line("volume", &[report.volume], report.volume_error, &plus_minus(report.volume_error));
+    if let (Some(centroid), Some(error)) = (report.centroid, report.centroid_error) {
+        line("centroid", &centroid, error, &plus_minus(error));
     }
     match (report.bbox, report.bbox_error) {
         (Some([x0, y0, z0, x1, y1, z1]), Some(error)) => {
-            lines.push(format!("from      {x0} {y0} {z0} ± {error:.1e}"));
-            lines.push(format!("to        {x1} {y1} {z1}"));
-            lines.push(format!("size      {} {} {}", x1 - x0, y1 - y0, z1 - z0));
+            line("from", &[x0, y0, z0], error, &plus_minus(error));
+            line("to", &[x1, y1, z1], error, "");
+            line("size", &[x1 - x0, y1 - y0, z1 - z0], error, "");
         }
-        _ => lines.push("the solid is empty".to_owned()),
+        _ => text += "the solid is empty\n",
     }
-    lines.join("\n") + "\n"
+    text
 }

@@ -7,6 +7,7 @@ mod render;
 
 use crate::args::{CheckArgs, Command, InspectArgs, MeasureArgs, RenderArgs};
 use crate::diagnostics::Show;
+use crate::failure::Failure;
 use crate::output::say_error;
 use crate::session::Session;
 
@@ -24,8 +25,10 @@ pub fn run(command: &Command) -> u8 {
         Command::Inspect(args) => inspect::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
-    if failure.wants_message() {
-        say_error(&failure.to_string());
+    match failure {
+        Failure::Interrupted => session.interrupt.announce(),
+        _ if failure.wants_message() => say_error(&failure.to_string()),
+        _ => {}
     }
     failure.exit_code()
 }

@@ -8,7 +8,6 @@ use crate::picture::{Alpha, encode_png};
 use crate::session::Session;
 use crate::stats::{Rays, Seconds, Stats, Stopwatch};
 use octrace::film::{Background, RenderStats, View, render};
-use octrace::query::occupied_bounds;
 use octrace::{Scene, Tracer};
 use octrace_read::Loaded;
 use std::path::{Path, PathBuf};
@@ -63,7 +62,10 @@ pub fn run(args: &RenderArgs, session: &Session) -> Result<(), Failure> {
 /// Where the picture goes: by default the input's name with `.png`, in the current folder.
 fn output_path(args: &RenderArgs) -> Result<PathBuf, Failure> {
     match (&args.output, args.file.file_stem()) {
-        (Some(output), _) => Ok(output.clone()),
+        (Some(output), _) => {
+            refuse_mistake(output, &args.file)?;
+            Ok(output.clone())
+        }
         (None, _) if args.file == Path::new("-") => {
             Err(Failure::Usage("say with -o where the picture of standard input is to go".into()))
         }
@@ -76,10 +78,33 @@ fn output_path(args: &RenderArgs) -> Result<PathBuf, Failure> {
     }
 }
 
+/// Names that promise what a picture is not, or that would cost the user a file.
+fn refuse_mistake(output: &Path, input: &Path) -> Result<(), Failure> {
+    let name = output.display();
+    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if same(output, input) {
+        return Err(Failure::Usage(format!("the picture would replace the file that it is of, {name}")));
+    }
+    let extension = output.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some(other) if OTHER_FORMATS.contains(&other) => {
+            let png = output.with_extension("png");
+            Err(Failure::Usage(format!("{name}: pictures are PNG files, nothing else; name it {}", png.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What a file may be meant to be by its name, but is not. Names that say nothing, as `mktemp` makes them, are fine.
+const OTHER_FORMATS: [&str; 27] = [
+    "jpg", "jpeg", "gif", "bmp", "tif", "tiff", "webp", "avif", "heic", "ppm", "pgm", "pnm", "tga", "exr", "hdr",
+    "svg", "pdf", "dxf", "stl", "off", "obj", "3mf", "amf", "wrl", "scad", "csg", "oct",
+];
+
 fn view(args: &RenderArgs, scene: &Scene, tracer: &Tracer) -> View {
     let (width_px, height_px) = args.view.size_px();
     View {
-        camera: args.view.framing().camera(scene.camera, &occupied_bounds(tracer), (width_px, height_px)),
+        camera: args.view.framing().camera_for(tracer, scene.camera, (width_px, height_px)),
         width_px,
         height_px,
         samples: args.look.samples,

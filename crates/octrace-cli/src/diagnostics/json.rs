@@ -14,6 +14,7 @@ pub struct JsonDiagnostic {
     severity: &'static str,
     code: &'static str,
     message: String,
+    count: usize,
     notes: Vec<JsonNote>,
     help: Option<String>,
 }
@@ -48,6 +49,7 @@ pub fn json(source: &Source, diagnostics: &[Diagnostic]) -> Vec<JsonDiagnostic> 
         severity: word(d.severity),
         code: d.code,
         message: d.message.clone(),
+        count: d.count,
         notes: d.notes.iter().map(|(at, label)| JsonNote { at: range(at), message: label.clone() }).collect(),
         help: d.help.clone(),
     };

@@ -29,18 +29,22 @@ pub enum Show {
 const DRAWN_PER_MESSAGE: usize = 2;
 const DRAWN_PER_CODE: usize = 10;
 
+/// Columns of an excerpt where there is no terminal to ask.
+const WIDTH: usize = 160;
+
 /// How many different messages are counted at the end.
 const MESSAGES_COUNTED: usize = 12;
 
 /// Prints the diagnostics of one file to standard error.
 pub fn print(source: &Source, diagnostics: &[Diagnostic], show: Show) {
-    let report = report(source, diagnostics, show, Colors::Ansi);
+    let width = terminal_size::terminal_size_of(std::io::stderr()).map_or(WIDTH, |(width, _)| width.0.into());
+    let report = report(source, diagnostics, show, width, Colors::Ansi);
     if !report.is_empty() {
         say(report.trim_end());
     }
 }
 
-fn report(source: &Source, diagnostics: &[Diagnostic], show: Show, colors: Colors) -> String {
+fn report(source: &Source, diagnostics: &[Diagnostic], show: Show, width: usize, colors: Colors) -> String {
     let mut shown: Vec<&Diagnostic> =
         diagnostics.iter().filter(|d| show == Show::All || d.severity == Severity::Error).collect();
     if shown.is_empty() {
@@ -54,9 +58,10 @@ fn report(source: &Source, diagnostics: &[Diagnostic], show: Show, colors: Color
     let mut report = String::new();
     for diagnostic in &shown {
         let same_code = count(&mut by_code, diagnostic.code);
-        let same_message = count(&mut by_message, &diagnostic.message);
+        // One that stands for many is no message of its own.
+        let same_message = if diagnostic.count == 1 { count(&mut by_message, &diagnostic.message) } else { usize::MAX };
         if same_code <= DRAWN_PER_CODE && same_message <= DRAWN_PER_MESSAGE {
-            report += &draw(diagnostic, &places, colors);
+            report += &draw(diagnostic, &places, width, colors);
             report += "\n\n";
         } else {
             let place = places.place(diagnostic.at.start);
@@ -66,8 +71,9 @@ fn report(source: &Source, diagnostics: &[Diagnostic], show: Show, colors: Color
         }
     }
     report += &format!("{name}: {}\n", totals(&shown));
-    if shown.len() > by_message.len() {
-        report += &most_frequent(by_message);
+    let all: usize = shown.iter().map(|d| d.count).sum();
+    if all > by_message.len() {
+        report += &most_frequent(by_message, all);
     }
     report
 }
@@ -82,7 +88,7 @@ fn count<'a>(counts: &mut BTreeMap<&'a str, usize>, key: &'a str) -> usize {
 fn totals(shown: &[&Diagnostic]) -> String {
     let counts = [Severity::Error, Severity::Warning, Severity::Note].into_iter().filter_map(|severity| {
         let word = word(severity);
-        match shown.iter().filter(|d| d.severity == severity).count() {
+        match shown.iter().filter(|d| d.severity == severity).map(|d| d.count).sum() {
             0 => None,
             1 => Some(format!("1 {word}")),
             count => Some(format!("{count} {word}s")),
@@ -91,13 +97,13 @@ fn totals(shown: &[&Diagnostic]) -> String {
     counts.collect::<Vec<_>>().join(", ")
 }
 
-/// A line for each of the most frequent messages.
-fn most_frequent(by_message: BTreeMap<&str, usize>) -> String {
+/// A line for each of the most frequent messages, of which there are so many in all.
+fn most_frequent(by_message: BTreeMap<&str, usize>, all: usize) -> String {
     let mut by_count: Vec<(&str, usize)> = by_message.into_iter().collect();
     by_count.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
-    let lines = by_count.iter().take(MESSAGES_COUNTED);
-    let lines = lines.map(|(message, count)| format!("{count:>6} x {}\n", printable_text(message)));
-    let rest: usize = by_count.iter().skip(MESSAGES_COUNTED).map(|&(_, count)| count).sum();
+    by_count.truncate(MESSAGES_COUNTED);
+    let lines = by_count.iter().map(|(message, count)| format!("{count:>6} x {}\n", printable_text(message)));
+    let rest = all - by_count.iter().map(|&(_, count)| count).sum::<usize>();
     let rest = if rest > 0 { format!("{rest:>6} others\n") } else { String::new() };
     lines.collect::<String>() + &rest
 }
@@ -121,7 +127,7 @@ mod tests {
     }
 
     fn plain(text: &str, diagnostics: &[Diagnostic]) -> String {
-        report(&Source::new("bracket.oct", text), diagnostics, Show::All, Colors::None)
+        report(&Source::new("bracket.oct", text), diagnostics, Show::All, WIDTH, Colors::None)
     }
 
     #[test]
@@ -169,6 +175,17 @@ mod tests {
     }
 
     #[test]
+    fn one_that_stands_for_many_counts_for_all_of_them() {
+        let mut many = vec![Diagnostic::error("noise", SourceRange::new(0, 1), "again"); 3];
+        many.push(Diagnostic { count: 997, ..Diagnostic::error("noise", SourceRange::new(1, 2), "and 997 more") });
+        let report = plain("abc", &many);
+        assert!(
+            report.ends_with("and 997 more\nbracket.oct: 1000 errors\n     3 x again\n   997 others\n"),
+            "{report}"
+        );
+    }
+
+    #[test]
     fn ten_thousand_errors_on_a_line_of_ten_megabytes_take_no_time_to_speak_of() {
         let text = "hull() {} ".repeat(1_000_000);
         let many: Vec<Diagnostic> = (0..10_000)
@@ -185,7 +202,7 @@ mod tests {
         let source = Source::new("a", "cube();");
         let at = SourceRange::new(0, 4);
         let both = [Diagnostic::warning("w", at, "just saying"), Diagnostic::error("e", at, "wrong")];
-        let report = report(&source, &both, Show::Errors, Colors::None);
+        let report = report(&source, &both, Show::Errors, WIDTH, Colors::None);
         assert!(report.contains("wrong") && !report.contains("just saying"));
     }
 }

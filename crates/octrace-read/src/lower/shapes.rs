@@ -7,7 +7,8 @@ use super::polyhedron;
 use super::report::Report;
 use crate::diagnostic::Diagnostic;
 use crate::{Facets, SourceRange};
-use octrace::{Affine, Polyhedron, PolyhedronError, Primitive, Solid, Vec3};
+use octrace::model::Node;
+use octrace::{Affine, Bounds, Polyhedron, PolyhedronError, Primitive, Solid, Vec3};
 use std::collections::HashMap;
 
 /// Makes leaves, and each primitive only once.
@@ -181,6 +182,37 @@ fn is_positive(
         .then(|| format!("write {}; to cut something away, use `difference`", -value));
     report.degenerate(code, at, format!("{what} {must}"), nothing, help);
     None
+}
+
+/// Coordinates up to this size have products that are still numbers.
+const FARTHEST: f64 = 1e30;
+
+/// What is smaller than its distance from the origin by this factor has not enough digits left for a shape.
+const LEAST_SHARE: f64 = 1e-13;
+
+/// Whether a leaf can be computed with where `map` puts it; a word about it if not.
+pub(super) fn can_be_placed(leaf: &Solid, map: &Affine, at: SourceRange, report: &mut Report<'_>) -> bool {
+    let (own, primitive) = match leaf.node() {
+        Node::Transform(own, child) => (*own, child.node()),
+        node => (Affine::IDENTITY, node),
+    };
+    let Node::Primitive(primitive) = primitive else { return true };
+    let map = *map * own;
+    let bounds = match primitive {
+        Primitive::HalfSpace => Bounds::around([map.translation]),
+        bounded => bounded.bounds(&map),
+    };
+    let (reach, size) = (bounds.min.abs().max(bounds.max.abs()).max_abs(), bounds.size());
+    let thinnest = size.x.min(size.y).min(size.z);
+    let wrong = if reach > FARTHEST || reach.is_nan() {
+        "this is too large, or too far from the origin, to compute with"
+    } else if !matches!(primitive, Primitive::HalfSpace) && thinnest <= LEAST_SHARE * reach {
+        "this is so small, or so far from the origin, that no digits are left for its shape"
+    } else {
+        return true;
+    };
+    report.degenerate("size-out-of-range", at, wrong.to_owned(), "it is empty", None);
+    false
 }
 
 /// The solid moved by `map`; `None`, and a word about it, where the map has no inverse to working precision.

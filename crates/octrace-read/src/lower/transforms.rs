@@ -33,10 +33,12 @@ pub(super) fn placement(kind: Kind, args: &Args<'_>, report: &mut Report<'_>) ->
         Some(map) if map.inverse().is_some() => Placement::Moved(map),
         Some(map) => {
             let at = args.get(if kind == Kind::Multmatrix { "m" } else { "v" }).map_or(args.name_at, |arg| arg.at);
-            let message = if map.is_finite() {
+            let message = if !map.is_finite() {
+                "this moves its children to infinity, which leaves nothing of them"
+            } else if map.determinant().is_finite() {
                 "this flattens its children, which leaves nothing of them"
             } else {
-                "this moves its children to infinity, which leaves nothing of them"
+                "these numbers are too large to compute with, which leaves nothing of the children"
             };
             report.push(Diagnostic::warning("singular-matrix", at, message));
             Placement::Flattened

@@ -6,7 +6,7 @@ use super::language::{self, Kind, Word};
 use super::looks::{Look, Parts};
 use super::report::Report;
 use super::settings::Settings;
-use super::shapes::Shapes;
+use super::shapes::{self, Shapes};
 use super::transforms::{Placement, placement};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Ast, Modifiers, NodeId, Siblings};
@@ -236,11 +236,11 @@ impl<'a, 'r> Walk<'a, 'r> {
             return Some(Operand::Empty);
         }
         Some(match self.shapes.leaf(kind, args, &mut self.report) {
-            Some(solid) => {
+            Some(solid) if shapes::can_be_placed(&solid, map, args.name_at, &mut self.report) => {
                 self.leaves += 1;
                 Operand::Solid(Made::leaf(solid))
             }
-            None => Operand::Empty,
+            _ => Operand::Empty,
         })
     }
 

@@ -168,18 +168,22 @@ impl<'s> Cursor<'s> {
         }
     }
 
-    /// Steps over what is left of an argument: up to a `,` or `)` of its own list, or a byte that can be in none.
-    pub fn skip_argument(&mut self) {
-        let mut depth = 0_usize;
+    /// Steps over what is left of an argument, in which so many `[` are open: up to a `,` or `)` of its own list, or a
+    /// byte that can be in none.
+    pub fn skip_argument(&mut self, open_brackets: usize) {
+        let (mut parentheses, mut brackets) = (0_usize, open_brackets);
         while let Some(byte) = self.peek() {
             match byte {
                 b'"' => {
                     self.skip_string();
                     continue;
                 }
-                b'(' | b'[' => depth += 1,
-                b')' | b',' if depth == 0 => return,
-                b')' | b']' => depth = depth.saturating_sub(1),
+                b'(' => parentheses += 1,
+                b')' if parentheses == 0 => return,
+                b')' => parentheses -= 1,
+                b'[' => brackets += 1,
+                b']' => brackets = brackets.saturating_sub(1),
+                b',' if parentheses == 0 && brackets == 0 => return,
                 b';' | b'{' | b'}' => return,
                 _ => {}
             }

@@ -363,8 +363,8 @@ impl Parser<'_, '_> {
                 Some(_) => {
                     if self.argument().is_err() {
                         self.builder.mark_damaged(node);
+                        self.cursor.skip_argument(self.builder.open_vectors());
                         self.builder.discard_value();
-                        self.cursor.skip_argument();
                     }
                 }
             }
@@ -377,6 +377,10 @@ impl Parser<'_, '_> {
         let mut name = Some(self.cursor.name()).filter(|name| !name.is_empty());
         let mut name_at = self.since(start);
         self.skip_blanks();
+        if name.is_some() && self.cursor.peek().is_none() {
+            // Whether this is a word or a name, only what is cut off could tell.
+            return Err(Reported);
+        }
         if name.is_some() && self.cursor.eat(b'=') {
             self.skip_blanks();
         } else {

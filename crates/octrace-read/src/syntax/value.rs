@@ -23,7 +23,7 @@ impl Parser<'_, '_> {
                 }
                 Some(b'0'..=b'9' | b'-' | b'+' | b'.') => self.number()?,
                 Some(b'"') => self.string()?,
-                Some(_) => self.word()?,
+                Some(_) => self.word(start)?,
                 None => return self.end_in_value(start),
             }
             loop {
@@ -48,10 +48,9 @@ impl Parser<'_, '_> {
     }
 
     fn end_in_value<T>(&mut self, start: u32) -> Result<T, Reported> {
+        // Otherwise it is the argument list that is cut short, and that says so.
         if self.builder.open_vectors() > 0 {
             self.ends_inside("unclosed-bracket", "inside a vector", SourceRange::new(start, start + 1));
-        } else {
-            self.ends_inside("unexpected-end", "where a value should follow", self.here());
         }
         Err(Reported)
     }
@@ -101,7 +100,8 @@ impl Parser<'_, '_> {
         Err(Reported)
     }
 
-    fn word(&mut self) -> Result<(), Reported> {
+    /// A word in a value that begins at `value_start`.
+    fn word(&mut self, value_start: u32) -> Result<(), Reported> {
         let at = self.here();
         let start = self.cursor.pos();
         match self.cursor.name() {
@@ -118,6 +118,8 @@ impl Parser<'_, '_> {
                 }
                 return Err(Reported);
             }
+            // Perhaps only the first half of a word.
+            _ if self.cursor.peek().is_none() => return self.end_in_value(value_start),
             _ => {
                 self.needs_evaluation(self.since(start));
                 return Err(Reported);

@@ -35,16 +35,16 @@ impl Camera {
     pub const OPENSCAD_FOV_DEG: f64 = 22.5;
 
     /// Right-handed frame `(right, up, forward)` of unit vectors. Where `up` does not tell (it is parallel to the view),
-    /// y is up, and if that is parallel too, z; an eye that is where it looks to looks along +y.
+    /// y is up, and if that is parallel too, z; an eye that is where it looks to, or is nowhere, looks along +y.
     pub fn frame(&self) -> (Vec3, Vec3, Vec3) {
-        let forward = (self.at - self.eye).normalized().unwrap_or(Vec3::Y);
+        let forward = (self.at - self.eye).normalized().filter(|f| f.is_finite()).unwrap_or(Vec3::Y);
         let right = [self.up, Vec3::Y, Vec3::Z]
             .into_iter()
             .filter_map(Vec3::normalized)
             .map(|up| forward.cross(up))
             .find(|right| right.length() > 1e-9)
             .and_then(Vec3::normalized)
-            .expect("Y and Z are not both parallel to the view");
+            .unwrap_or(Vec3::X);
         (right, right.cross(forward), forward)
     }
 
@@ -118,6 +118,12 @@ mod tests {
         let top = FRONT.rays(640, 480).ray(320.0, 0.0).direction;
         assert!((top.z - top.y).abs() < 1e-15, "45 degrees up: {top:?}");
         assert!(FRONT.rays(640, 480).ray(640.0, 240.0).direction.x > 0.0);
+    }
+
+    #[test]
+    fn an_eye_that_is_nowhere_still_has_a_frame() {
+        let nowhere = Camera { eye: Vec3::splat(f64::NAN), ..FRONT };
+        assert_eq!(nowhere.frame(), (Vec3::X, Vec3::Z, Vec3::Y));
     }
 
     #[test]

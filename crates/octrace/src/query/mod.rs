@@ -4,4 +4,4 @@ pub mod measure;
 mod occupied;
 
 pub use measure::{MeasureError, MeasureOptions, Measures, measure};
-pub use occupied::occupied_bounds;
+pub use occupied::{occupied_bounds, occupied_bounds_closely};
