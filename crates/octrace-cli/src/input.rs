@@ -55,7 +55,8 @@ pub fn open(file: &Path, args: &ReadArgs, session: &Session) -> Result<Input, Fa
             return Err(Failure::Usage(format!("-D is for .scad files: {name} has no variables left to set")));
         }
         Language::Tree => {
-            let _busy = session.busy("reading");
+            // Whoever types the input knows what is waited for.
+            let _busy = (file != Path::new("-")).then(|| session.busy("reading"));
             Source::new(shown_name(file), bytes(file)?)
         }
         Language::Scad => evaluate(file, args, session)?,

@@ -1,11 +1,11 @@
 //! Measured numbers for people: no more digits than the error leaves meaning to.
 
-/// The value, rounded to the second digit of its error.
+/// The value, rounded to the first digit of its error.
 pub fn rounded(value: f64, error: f64) -> String {
     let (Some(value_exponent), Some(error_exponent)) = (exponent(value), exponent(error)) else {
         return plain(value);
     };
-    match usize::try_from(value_exponent - error_exponent + 1) {
+    match usize::try_from(value_exponent - error_exponent) {
         Ok(digits) => plain(to_digits(value, digits)),
         Err(_) => plain(0.0),
     }
@@ -46,17 +46,17 @@ mod tests {
     #[test]
     fn digits_without_meaning_go() {
         for (value, error, expected) in [
-            (203_221.577_548, 1.2, "203221.6"),
-            (1_601_808.207, 117.0, "1601810"),
-            (0.999_999_913, 1e-6, "0.9999999"),
+            (203_221.577_548, 1.2, "203222"),
+            (1_601_808.207, 117.0, "1601800"),
+            (0.999_999_913, 1e-6, "1"),
             (-11.999_999_999_972, 3.4e-6, "-12"),
             (0.0, 1e-6, "0"),
             (-1e-18, 1e-6, "0"),
-            (5.0, 60.0, "5"),
-            (0.5, 60.0, "0"),
+            (50.0, 60.0, "50"),
+            (5.0, 60.0, "0"),
             (1.5, 0.0, "1.5"),
             (0.1 + 0.2, 1e-30, "0.30000000000000004"),
-            (4.188_779e-300, 6e-305, "4.188779e-300"),
+            (4.188_779e-300, 6e-305, "4.18878e-300"),
             (1.234_567e45, 1e39, "1.234567e45"),
             (1.0, f64::INFINITY, "1"),
             (f64::NAN, 1.0, "NaN"),

@@ -90,7 +90,7 @@ fn table(report: &Report) -> String {
         (Some([x0, y0, z0, x1, y1, z1]), Some(error)) => {
             line("from", &[x0, y0, z0], error, &plus_minus(error));
             line("to", &[x1, y1, z1], error, "");
-            line("size", &[x1 - x0, y1 - y0, z1 - z0], error, "");
+            line("size", &[x1 - x0, y1 - y0, z1 - z0], 2.0 * error, "");
         }
         _ => text += "the solid is empty\n",
     }
