@@ -4,6 +4,7 @@
 use crate::framing::{Framing, ProjectionKind};
 use crate::input;
 use crate::picture::BitDepth;
+use crate::study::{self, Depth, SceneNames};
 use crate::values::{self, Pixel, Size, Viewpoint};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
@@ -49,6 +50,13 @@ Examples:
   octrace inspect bracket.csg --tree --program
   octrace inspect bracket.csg --size 640x480 --pixel 320,240";
 
+const STUDY_EXAMPLES: &str = "\
+Examples:
+  octrace study
+  octrace study --quick --scenes classic,chain --json study.json
+  octrace study bracket.csg --out bracket.html
+  octrace study bracket.csg --traversals bresenham,samet --leaf-primitives 4,6,8 --octree-depth auto,7";
+
 /// Exact ray tracing of CSG solids, straight from the CSG tree, with no meshing.
 #[derive(Debug, Parser)]
 #[command(name = "octrace", version, after_help = EXIT_CODES, max_term_width = 100)]
@@ -91,6 +99,9 @@ pub enum Command {
     /// Show what octrace makes of a file: tree, program, octree, one pixel
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
+    /// Measure the ways to walk an octree side by side, and find the settings that suit a model
+    #[command(after_help = STUDY_EXAMPLES)]
+    Study(StudyArgs),
 }
 
 /// How files are read.
@@ -272,6 +283,59 @@ pub struct InspectArgs {
     pub quiet: bool,
 }
 
+/// Arguments of `octrace study`.
+#[derive(Debug, Args)]
+pub struct StudyArgs {
+    /// The files to study: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input
+    /// [default: scenes that come with the program]
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Where the report goes, one HTML page; - for standard output
+    #[arg(short, long, value_name = "FILE", default_value = "study.html")]
+    pub out: PathBuf,
+    /// Where all figures go, as JSON; - for standard output
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// What is tried, and how often.
+    #[command(flatten)]
+    pub trials: TrialArgs,
+    /// How files are read.
+    #[command(flatten)]
+    pub read: ReadArgs,
+    /// Print nothing but errors
+    #[arg(short, long, help_heading = "Messages")]
+    pub quiet: bool,
+}
+
+/// What a study tries, and how often. Lists are separated by commas.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "What is tried")]
+pub struct TrialArgs {
+    /// Less of everything: done in half a minute
+    #[arg(long)]
+    pub quick: bool,
+    /// Scenes that come with the program, by name, or by family: balls, copies, chain
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = study::select)]
+    pub scenes: Vec<SceneNames>,
+    /// How rays walk the octree [default: every way]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
+    pub traversals: Vec<TraversalKind>,
+    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each family,
+    /// values from 1 to 24; else render's default]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::count(1..=64))]
+    pub leaf_primitives: Vec<u32>,
+    /// How often cells are divided at most; `auto` is what the number of primitives leads to [default: for files and one
+    /// scene of each family, auto and depths about that; else auto]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub octree_depth: Vec<Depth>,
+    /// Rounds of timing, in each of which everything has its turn [default: 5, or 3 with --quick]
+    #[arg(long, value_name = "N", value_parser = values::count(1..=1000))]
+    pub repeat: Option<u32>,
+    /// Width and height of the pictures in pixels, one ray each [default: 320x240, or 96x72 with --quick]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
+    pub size: Option<Size>,
+}
+
 /// How statistics are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StatsFormat {
@@ -315,6 +379,27 @@ impl TraceArgs {
         match self.threads {
             Some(threads) => threads as usize,
             None => std::thread::available_parallelism().map_or(1, Into::into),
+        }
+    }
+}
+
+impl TrialArgs {
+    /// What is to be tried.
+    pub fn plan(&self) -> study::Plan {
+        let usual = if self.quick {
+            (3, Size { width_px: 96, height_px: 72 })
+        } else {
+            (5, Size { width_px: 320, height_px: 240 })
+        };
+        let size = self.size.unwrap_or(usual.1);
+        let some = |list: &[u32]| (!list.is_empty()).then(|| list.iter().map(|&n| n as usize).collect());
+        study::Plan {
+            size_px: (size.width_px, size.height_px),
+            repeat: self.repeat.unwrap_or(usual.0),
+            traversals: if self.traversals.is_empty() { TraversalKind::ALL.to_vec() } else { self.traversals.clone() },
+            leaf_primitives: some(&self.leaf_primitives),
+            depths: (!self.octree_depth.is_empty()).then(|| self.octree_depth.clone()),
+            quick: self.quick,
         }
     }
 }

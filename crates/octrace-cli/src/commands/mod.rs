@@ -4,8 +4,9 @@ mod check;
 mod inspect;
 mod measure;
 mod render;
+mod study;
 
-use crate::args::{CheckArgs, Command, InspectArgs, MeasureArgs, RenderArgs};
+use crate::args::{CheckArgs, Command, InspectArgs, MeasureArgs, RenderArgs, StudyArgs};
 use crate::diagnostics::Show;
 use crate::failure::Failure;
 use crate::output::say_error;
@@ -16,13 +17,15 @@ pub fn run(command: &Command) -> u8 {
     let (Command::Render(RenderArgs { quiet, .. })
     | Command::Check(CheckArgs { quiet, .. })
     | Command::Measure(MeasureArgs { quiet, .. })
-    | Command::Inspect(InspectArgs { quiet, .. })) = command;
+    | Command::Inspect(InspectArgs { quiet, .. })
+    | Command::Study(StudyArgs { quiet, .. })) = command;
     let session = Session::start(if *quiet { Show::Errors } else { Show::All });
     let result = match command {
         Command::Render(args) => render::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Measure(args) => measure::run(args, &session),
         Command::Inspect(args) => inspect::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
     match failure {

@@ -1,0 +1,69 @@
+//! Numbers for people.
+
+use crate::study::statistics::Spread;
+use maud::{Markup, html};
+
+/// Three digits that count, or the whole number where it has more: `0.0123`, `4.56`, `12,300`.
+pub fn number(value: f64) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let digits_before = if value.abs() < 1.0 { 1 } else { value.abs().log10().floor() as i32 + 1 };
+    let leading_zeros = if value == 0.0 || value.abs() >= 1.0 { 0 } else { -value.abs().log10().floor() as i32 - 1 };
+    if digits_before >= 3 {
+        return whole(value.round() as u64);
+    }
+    format!("{value:.*}", (3 - digits_before + leading_zeros).clamp(0, 9) as usize)
+}
+
+/// Thousands apart.
+pub fn whole(value: u64) -> String {
+    indicatif::HumanCount(value).to_string()
+}
+
+/// A time with a unit that fits.
+pub fn seconds(value: f64) -> String {
+    match value {
+        v if v >= 1.0 => format!("{} s", number(v)),
+        v if v >= 1e-3 => format!("{} ms", number(v * 1e3)),
+        v => format!("{} µs", number(v * 1e6)),
+    }
+}
+
+/// A number of bytes with a unit that fits.
+pub fn bytes(value: usize) -> String {
+    indicatif::DecimalBytes(value as u64).to_string()
+}
+
+/// A median, and small beside it from where to where the values go.
+pub fn spread(values: &Spread, show: impl Fn(f64) -> String) -> Markup {
+    html! {
+        (show(values.median)) " "
+        small { "(" (show(values.min)) "–" (show(values.max)) ")" }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_digits_that_count() {
+        for (value, expected) in [
+            (0.0, "0.00"),
+            (0.012_34, "0.0123"),
+            (0.5, "0.500"),
+            (1.0, "1.00"),
+            (45.67, "45.7"),
+            (456.7, "457"),
+            (12_345.6, "12,346"),
+            (f64::NAN, "–"),
+        ] {
+            assert_eq!(number(value), expected);
+        }
+        assert_eq!(
+            (seconds(0.0123).as_str(), seconds(2.5).as_str(), seconds(4.2e-5).as_str()),
+            ("12.3 ms", "2.50 s", "42.0 µs")
+        );
+    }
+}

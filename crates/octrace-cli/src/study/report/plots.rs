@@ -1,0 +1,121 @@
+//! Lines in a plane with logarithmic axes, as SVG.
+
+use plotters::coord::combinators::IntoLogRange;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::*;
+
+/// One line of a plot.
+pub struct Line {
+    /// What the legend says.
+    pub name: String,
+    /// What is plotted; only positive numbers can be.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// What a plot shows.
+pub struct Plot<'a> {
+    /// What grows to the right.
+    pub x_label: &'a str,
+    /// What grows upwards.
+    pub y_label: &'a str,
+    /// The lines, each in a colour of its own.
+    pub lines: Vec<Line>,
+}
+
+/// Width and height in pixels.
+const SIZE_PX: (u32, u32) = (660, 400);
+
+/// Colours that people with any kind of colour vision can tell apart [after Okabe and Ito]; black comes first.
+const COLORS: [RGBColor; 8] = [
+    RGBColor(0, 0, 0),
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+    RGBColor(140, 140, 140),
+];
+
+impl Plot<'_> {
+    /// The plot as an SVG element; `None` where there are no two points to draw a line between.
+    pub fn svg(&self) -> Option<String> {
+        let points = || self.lines.iter().flat_map(|line| &line.points).filter(|(x, y)| *x > 0.0 && *y > 0.0);
+        let (x_from, x_to) = range(points().map(|p| p.0))?;
+        let (y_from, y_to) = range(points().map(|p| p.1))?;
+        if x_from == x_to {
+            return None;
+        }
+        let mut svg = String::new();
+        // Room above the highest point, for the legend.
+        self.draw(&mut svg, (x_from, x_to), (y_from / 1.3, y_to * 1.5)).ok()?;
+        Some(svg)
+    }
+
+    fn draw(
+        &self,
+        svg: &mut String,
+        (x_from, x_to): (f64, f64),
+        (y_from, y_to): (f64, f64),
+    ) -> Result<(), DrawingAreaErrorKind<std::io::Error>> {
+        let area = SVGBackend::with_string(svg, SIZE_PX).into_drawing_area();
+        area.fill(&WHITE)?;
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .x_label_area_size(42)
+            .y_label_area_size(68)
+            .build_cartesian_2d((x_from..x_to).log_scale(), (y_from..y_to).log_scale())?;
+        let label = |value: &f64| super::format::number(*value).trim_end_matches(".00").to_owned();
+        chart
+            .configure_mesh()
+            .x_desc(self.x_label)
+            .y_desc(self.y_label)
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
+            .label_style(("sans-serif", 13))
+            .axis_desc_style(("sans-serif", 14))
+            .bold_line_style(RGBColor(210, 210, 210))
+            .light_line_style(RGBColor(240, 240, 240))
+            .draw()?;
+        for (line, color) in std::iter::zip(&self.lines, COLORS.iter().cycle()) {
+            let drawn: Vec<(f64, f64)> = line.points.iter().copied().filter(|(x, y)| *x > 0.0 && *y > 0.0).collect();
+            let style = color.stroke_width(2);
+            chart
+                .draw_series(LineSeries::new(drawn, style).point_size(3))?
+                .label(&line.name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .background_style(WHITE.mix(0.8))
+            .label_font(("sans-serif", 13))
+            .draw()?;
+        area.present()
+    }
+}
+
+/// The least and the greatest; `None` of nothing.
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |range, v| {
+        let (from, to) = range.unwrap_or((v, v));
+        Some((from.min(v), to.max(v)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plot(points: &[(f64, f64)]) -> Option<String> {
+        let line = Line { name: "a <b> & c".into(), points: points.to_vec() };
+        Plot { x_label: "x", y_label: "y", lines: vec![line] }.svg()
+    }
+
+    #[test]
+    fn lines_need_two_points() {
+        assert!(plot(&[]).is_none() && plot(&[(1.0, 2.0)]).is_none() && plot(&[(0.0, 1.0), (2.0, 1.0)]).is_none());
+        let svg = plot(&[(1.0, 2.0), (10.0, 2.0)]).unwrap();
+        assert!(svg.starts_with("<svg") && svg.contains("polyline") && !svg.contains("<b>"), "{svg}");
+    }
+}
