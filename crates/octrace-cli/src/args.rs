@@ -332,7 +332,7 @@ pub struct TrialArgs {
     #[arg(long, value_name = "N", value_parser = values::count(1..=1000))]
     pub repeat: Option<u32>,
     /// Width and height of the pictures in pixels, one ray each [default: 320x240, or 96x72 with --quick]
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = study_size)]
     pub size: Option<Size>,
 }
 
@@ -416,6 +416,16 @@ fn background(text: &str) -> Result<Background, String> {
         "transparent" => Ok(Background::Transparent),
         _ => values::color(text).map(Background::Color),
     }
+}
+
+/// A study keeps every ray and every hit of a picture.
+fn study_size(text: &str) -> Result<Size, String> {
+    const MOST_PIXELS: u32 = 1 << 22;
+    let size: Size = text.parse()?;
+    if size.width_px.saturating_mul(size.height_px) > MOST_PIXELS {
+        return Err(format!("for a study {MOST_PIXELS} pixels (2048x2048) are the most, and far fewer do"));
+    }
+    Ok(size)
 }
 
 fn bit_depth(text: &str) -> Result<BitDepth, String> {

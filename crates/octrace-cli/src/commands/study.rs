@@ -47,7 +47,7 @@ pub fn run(args: &StudyArgs, session: &Session) -> Result<(), Failure> {
         memory,
     };
     if let Some(json) = json {
-        let text = serde_json::to_string_pretty(&study).expect("a study is plain data");
+        let text = serde_json::to_string(&study).expect("a study is plain data");
         json.write(format!("{text}\n").as_bytes(), &session.interrupt)?;
     }
     out.write(study::page(&study).as_bytes(), &session.interrupt)?;
@@ -101,10 +101,18 @@ fn command_line() -> String {
 fn summary(report: &SceneReport) -> String {
     let usual = report.runs.iter().find_map(|run| run.figures.as_ref().filter(|_| run.is_default));
     let Some(usual) = usual else { return report.name.clone() };
-    format!(
+    let mut text = format!(
         "{}: {:.0} ns a ray by default, {:.1} times as fast as without octree",
         report.name, usual.ns_per_ray.median, usual.speedup_over_canonical.median
-    )
+    );
+    match &report.advice {
+        Some(advice) if advice.is_worth_it => {
+            text += &format!("; {:.2} times as fast again with {}", advice.speedup.median, advice.options);
+        }
+        Some(_) => text += "; no other settings are clearly better",
+        None => {}
+    }
+    text
 }
 
 /// A difference from the canonical tracer is the worst that can be found.

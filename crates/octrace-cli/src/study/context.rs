@@ -25,7 +25,7 @@ impl<'a> Context<'a> {
     /// For one run of the program.
     pub fn new(session: &'a Session) -> Self {
         let exec = Exec { threads: Self::THREADS, cancel: session.interrupt.token(), progress: Arc::new(Silent) };
-        let progress = session.progress("reading");
+        let progress = session.progress("preparing");
         Self { interrupt: &session.interrupt, progress, exec, _listening: session.interrupt.listen() }
     }
 

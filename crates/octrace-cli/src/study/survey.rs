@@ -60,6 +60,9 @@ impl Picture<'_> {
     }
 }
 
+/// The first hit of each ray.
+type Hits = Vec<Option<Hit>>;
+
 /// Looks at every configuration. The first one must be such that it can be built.
 pub fn survey(
     scene: &StudyScene,
@@ -72,7 +75,7 @@ pub fn survey(
     let mut surveyed: Vec<Surveyed> = Vec::new();
     let mut checked = Checked::default();
     // What is seen: what the canonical tracer sees, and where it was not asked, what the first configuration sees.
-    let mut expected: Option<Vec<Option<Hit>>> = None;
+    let mut expected: Option<Hits> = None;
     for config in configs {
         let looked_at = look(scene, config, &surveyed, picture, longest_build_s, context)?;
         if let (one, Some(hits)) = &looked_at {
@@ -106,7 +109,7 @@ fn look(
     picture: &Picture<'_>,
     longest_build_s: f64,
     context: &Context<'_>,
-) -> Result<(Surveyed, Option<Vec<Option<Hit>>>), Failure> {
+) -> Result<(Surveyed, Option<Hits>), Failure> {
     let left_out = |status: Status, note: String, build_seconds: Option<f64>| {
         Ok((Surveyed { config: *config, status, note: Some(note), same_as: None, counts: None, build_seconds }, None))
     };

@@ -1,7 +1,7 @@
 //! What the figures say, in sentences.
 
 use super::format::{number, whole};
-use super::look_up::{traversals, with_traversal};
+use super::look_up::{steps_of_both, traversals, with_traversal};
 use crate::study::plan::Config;
 use crate::study::results::{Advice, SceneReport, Study};
 use crate::study::scenes::Family;
@@ -100,13 +100,7 @@ fn fastest(study: &Study) -> Option<Markup> {
 
 /// The paper's claim about the cost of a step.
 fn step(study: &Study) -> Option<Markup> {
-    let walk = |scene: &SceneReport, name: &str| Some(with_traversal(scene, name)?.1.walk);
-    let pairs: Vec<_> = study
-        .scenes
-        .iter()
-        .filter_map(|scene| Some((walk(scene, "bresenham")?, walk(scene, "fujimoto")?)))
-        .filter(|(bresenham, _)| bresenham.cells_per_ray > 1.0)
-        .collect();
+    let pairs: Vec<_> = study.scenes.iter().filter_map(steps_of_both).collect();
     if pairs.is_empty() {
         return None;
     }

@@ -23,10 +23,22 @@ pub fn whole(value: u64) -> String {
 
 /// A time with a unit that fits.
 pub fn seconds(value: f64) -> String {
-    match value {
-        v if v >= 1.0 => format!("{} s", number(v)),
-        v if v >= 1e-3 => format!("{} ms", number(v * 1e3)),
-        v => format!("{} µs", number(v * 1e6)),
+    let (factor, unit) = unit_of_time(value);
+    format!("{} {unit}", number(value * factor))
+}
+
+/// A median time with a unit that fits, and small beside it from where to where the times go, in the same unit.
+pub fn spread_seconds(values: &Spread) -> Markup {
+    let (factor, unit) = unit_of_time(values.median);
+    html! { (spread(&values.times(factor))) " " (unit) }
+}
+
+/// What to multiply seconds with, and what they are then.
+fn unit_of_time(seconds: f64) -> (f64, &'static str) {
+    match seconds {
+        s if s >= 1.0 => (1.0, "s"),
+        s if s >= 1e-3 => (1e3, "ms"),
+        _ => (1e6, "µs"),
     }
 }
 
@@ -36,10 +48,10 @@ pub fn bytes(value: usize) -> String {
 }
 
 /// A median, and small beside it from where to where the values go.
-pub fn spread(values: &Spread, show: impl Fn(f64) -> String) -> Markup {
+pub fn spread(values: &Spread) -> Markup {
     html! {
-        (show(values.median)) " "
-        small { "(" (show(values.min)) "–" (show(values.max)) ")" }
+        (number(values.median)) " "
+        small { "(" (number(values.min)) "–" (number(values.max)) ")" }
     }
 }
 

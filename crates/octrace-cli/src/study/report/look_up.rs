@@ -1,7 +1,7 @@
 //! Finding figures in a study.
 
 use crate::study::plan::Config;
-use crate::study::results::{Figures, Run, SceneReport};
+use crate::study::results::{Figures, Run, SceneReport, Walk};
 use octrace::traverse::TraversalKind;
 
 /// The default settings with this traversal, or what has the same octree.
@@ -22,6 +22,15 @@ pub fn figures<'a>(scene: &'a SceneReport, run: &'a Run) -> Option<&'a Figures> 
         Some(other) => scene.runs.get(other)?.figures.as_ref(),
         None => run.figures.as_ref(),
     }
+}
+
+/// The walks of `bresenham` and `fujimoto` at the default settings, where there is more to walk than a single cell.
+pub fn steps_of_both(scene: &SceneReport) -> Option<(Walk, Walk)> {
+    let walk = |name: &str| {
+        let (_, figures) = with_traversal(scene, name)?;
+        (figures.octree.depth > 0).then_some(figures.walk)
+    };
+    Some((walk("bresenham")?, walk("fujimoto")?))
 }
 
 /// The names of the traversals that the scene was traced with, in the usual order.

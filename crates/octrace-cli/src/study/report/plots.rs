@@ -1,6 +1,6 @@
 //! Lines in a plane with logarithmic axes, as SVG.
 
-use plotters::coord::combinators::IntoLogRange;
+use plotters::coord::combinators::{BindKeyPoints, IntoLogRange};
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 
@@ -47,8 +47,10 @@ impl Plot<'_> {
             return None;
         }
         let mut svg = String::new();
-        // Room above the highest point, for the legend.
-        self.draw(&mut svg, (x_from, x_to), (y_from / 1.3, y_to * 1.5)).ok()?;
+        let mut x_ticks: Vec<f64> = points().map(|p| p.0).collect();
+        x_ticks.sort_by(f64::total_cmp);
+        x_ticks.dedup();
+        self.draw(&mut svg, (x_from / 1.05, x_to * 1.05), (y_from / 1.3, y_to * 1.5), x_ticks).ok()?;
         Some(svg)
     }
 
@@ -57,21 +59,21 @@ impl Plot<'_> {
         svg: &mut String,
         (x_from, x_to): (f64, f64),
         (y_from, y_to): (f64, f64),
+        x_ticks: Vec<f64>,
     ) -> Result<(), DrawingAreaErrorKind<std::io::Error>> {
         let area = SVGBackend::with_string(svg, SIZE_PX).into_drawing_area();
         area.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .x_label_area_size(42)
-            .y_label_area_size(68)
-            .build_cartesian_2d((x_from..x_to).log_scale(), (y_from..y_to).log_scale())?;
-        let label = |value: &f64| super::format::number(*value).trim_end_matches(".00").to_owned();
+        let mut chart =
+            ChartBuilder::on(&area).margin(12).x_label_area_size(42).y_label_area_size(68).build_cartesian_2d(
+                (x_from..x_to).log_scale().with_key_points(x_ticks),
+                (y_from..y_to).log_scale().with_key_points(round_numbers(y_from, y_to)),
+            )?;
         chart
             .configure_mesh()
             .x_desc(self.x_label)
             .y_desc(self.y_label)
-            .x_label_formatter(&label)
-            .y_label_formatter(&label)
+            .x_label_formatter(&|value| tick(*value))
+            .y_label_formatter(&|value| tick(*value))
             .label_style(("sans-serif", 13))
             .axis_desc_style(("sans-serif", 14))
             .bold_line_style(RGBColor(210, 210, 210))
@@ -95,6 +97,26 @@ impl Plot<'_> {
     }
 }
 
+/// Powers of ten in the range, and the less it spans, the more of their multiples.
+fn round_numbers(from: f64, to: f64) -> Vec<f64> {
+    let factors: &[f64] = match to / from {
+        wide if wide >= 1e3 => &[1.0],
+        medium if medium >= 8.0 => &[1.0, 2.0, 5.0],
+        _ => &[1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0],
+    };
+    let powers = (-9..=15).map(|exponent| 10_f64.powi(exponent));
+    powers.flat_map(|power| factors.iter().map(move |f| f * power)).filter(|v| (from..=to).contains(v)).collect()
+}
+
+/// A number at an axis.
+fn tick(value: f64) -> String {
+    match value {
+        v if v >= 1e6 => format!("{v:e}").replace('e', "·10^").replace("1·", ""),
+        v if v >= 1.0 => super::format::whole(v as u64),
+        v => v.to_string(),
+    }
+}
+
 /// The least and the greatest; `None` of nothing.
 fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     values.fold(None, |range, v| {
@@ -110,6 +132,17 @@ mod tests {
     fn plot(points: &[(f64, f64)]) -> Option<String> {
         let line = Line { name: "a <b> & c".into(), points: points.to_vec() };
         Plot { x_label: "x", y_label: "y", lines: vec![line] }.svg()
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        assert_eq!(round_numbers(3.0, 60.0), [5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(round_numbers(110.0, 320.0), [120.0, 150.0, 200.0, 250.0, 300.0]);
+        assert_eq!(round_numbers(3.0, 6000.0), [10.0, 100.0, 1000.0]);
+        assert_eq!(
+            (tick(1e6), tick(2e9), tick(1001.0), tick(0.5)),
+            ("10^6".into(), "2·10^9".into(), "1,001".into(), "0.5".into())
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The tables of the report.
 
-use super::format::{bytes, number, seconds, spread, whole};
-use super::look_up::{figures, traversals, with_traversal};
+use super::format::{bytes, number, seconds, spread, spread_seconds, whole};
+use super::look_up::{figures, steps_of_both, traversals, with_traversal};
 use crate::study::results::{Figures, Run, SceneReport, Status, Study};
 use maud::{Markup, html};
 
@@ -11,7 +11,7 @@ pub fn defaults(study: &Study) -> Markup {
         div.scroll { table {
             thead { tr {
                 th.text { "scene" } th { "primitives" } th.text { "traversal" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "s/picture" }
+                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for scene in &study.scenes { (scene_rows(study, scene)) } }
@@ -27,10 +27,10 @@ fn scene_rows(study: &Study, scene: &SceneReport) -> Markup {
     html! {
         tr.first {
             td.text { (scene.name) } td { (whole(scene.primitives as u64)) } td.text { "none" } td {} td {} td {}
-            td { (spread(&canonical.build_seconds, seconds)) } td {}
+            td { (spread_seconds(&canonical.build_seconds)) } td {}
             td { (number(canonical.surface_tests_per_ray)) } td {}
-            td { (spread(&canonical.ns_per_ray, number)) } td { (number(canonical.picture_seconds.median)) }
-            td { (number(canonical.mrays_per_second)) } td { (spread(&canonical.ratio_to_default, number)) } td { "1" }
+            td { (spread(&canonical.ns_per_ray)) } td { (seconds(canonical.picture_seconds.median)) }
+            td { (number(canonical.mrays_per_second)) } td { (spread(&canonical.ratio_to_default)) } td { "1" }
         }
         @for (run, f) in runs {
             tr.usual[run.is_default] {
@@ -44,7 +44,7 @@ fn scene_rows(study: &Study, scene: &SceneReport) -> Markup {
 fn octree_cells(f: &Figures) -> Markup {
     html! {
         td { (whole(f.octree.nodes() as u64)) } td { (f.octree.depth) } td { (bytes(f.bytes.total())) }
-        td { (spread(&f.build_seconds, seconds)) }
+        td { (spread_seconds(&f.build_seconds)) }
     }
 }
 
@@ -53,9 +53,9 @@ fn cost_cells(f: &Figures, is_best: bool) -> Markup {
     html! {
         td { (number(f.cells_per_ray)) } td { (number(f.surface_tests_per_ray)) }
         td { (number(f.walk.ns_per_step().median)) }
-        td.best[is_best] { (spread(&f.ns_per_ray, number)) } td { (number(f.picture_seconds.median)) }
-        td { (number(f.mrays_per_second)) } td { (spread(&f.ratio_to_default, number)) }
-        td { (spread(&f.speedup_over_canonical, number)) }
+        td.best[is_best] { (spread(&f.ns_per_ray)) } td { (seconds(f.picture_seconds.median)) }
+        td { (number(f.mrays_per_second)) } td { (spread(&f.ratio_to_default)) }
+        td { (number(f.speedup_over_canonical.median)) }
     }
 }
 
@@ -76,15 +76,15 @@ pub fn steps(study: &Study) -> Markup {
 
 fn step_row(scene: &SceneReport, names: &[&str]) -> Markup {
     let walks: Vec<_> = names.iter().map(|name| Some(with_traversal(scene, name)?.1.walk)).collect();
-    let step = |name: &str| with_traversal(scene, name).map(|(_, f)| f.walk);
-    let ratio = step("bresenham").zip(step("fujimoto")).map(|(b, f)| b.ns_per_cell.median / f.ns_per_step().median);
-    let grid = step("fujimoto").and_then(|walk| Some(walk.grid_steps_per_ray? / walk.cells_per_ray));
+    let both = steps_of_both(scene);
+    let ratio = both.map(|(b, f)| b.ns_per_cell.median / f.ns_per_step().median);
+    let grid = both.and_then(|(_, f)| Some(f.grid_steps_per_ray? / f.cells_per_ray));
     html! {
         tr {
             td.text { (scene.name) }
             td { (walks.iter().flatten().next().map_or("–".into(), |walk| number(walk.cells_per_ray))) }
             @for walk in &walks {
-                td { @match walk { Some(walk) => (spread(&walk.ns_per_step(), number)), None => "–" } }
+                td { @match walk { Some(walk) => (spread(&walk.ns_per_step())), None => "–" } }
             }
             td { (ratio.map_or("–".into(), number)) } td { (grid.map_or("–".into(), number)) }
         }
@@ -100,7 +100,7 @@ pub fn settings(scene: &SceneReport) -> Markup {
         div.scroll { table {
             thead { tr {
                 th.text { "traversal" } th { "p" } th { "depth asked" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "s/picture" }
+                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for run in scene.runs.iter().filter(|run| run.status != Status::SameTree) {
