@@ -80,7 +80,7 @@ fn the_figures_are_complete() {
     assert_keys(&figures["walk"], "cells_per_ray ns_per_cell grid_steps_per_ray ns_per_grid_step");
     assert_keys(
         &scene["advice"],
-        "traversal leaf_primitives octree_depth is_worth_it speedup pays_from_rays memory_ratio options",
+        "traversal leaf_primitives octree_depth is_default is_worth_it speedup pays_from_rays memory_ratio options",
     );
     assert_keys(
         &json["memory"][0],

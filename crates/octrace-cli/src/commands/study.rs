@@ -66,9 +66,13 @@ fn destination(path: &Path, args: &StudyArgs) -> Result<Destination, Failure> {
     Destination::new(path)
 }
 
+/// The scene of a file, under the file's name: without its folder, unless another file in another folder has the same.
 fn from_file(file: &Path, args: &StudyArgs, session: &Session) -> Result<StudyScene, Failure> {
     let (source, Loaded { scene, .. }) = input::load(file, &args.read, session)?;
-    Ok(StudyScene::from_file(source.name(), &scene))
+    let is_unique = args.files.iter().filter(|other| other.file_name() == file.file_name()).count() == 1;
+    let short = file.file_name().filter(|_| is_unique && file != Path::new("-"));
+    let name = short.map_or(source.name().into(), |name| name.to_string_lossy().into_owned());
+    Ok(StudyScene::from_file(&name, source.name(), &scene))
 }
 
 /// The scenes asked for, each once; the usual ones where neither scenes nor files are named.

@@ -255,8 +255,10 @@ pub struct Advice {
     pub leaf_primitives: usize,
     /// `--octree-depth`; null to leave it to the tracer.
     pub octree_depth: Option<u32>,
-    /// Whether these settings gain enough to bother: in the rounds measured once more for them they were always faster than
-    /// the default ones, in the middle by more than [`Advice::WORTH_IT`].
+    /// Whether these are the default settings: no others were faster.
+    pub is_default: bool,
+    /// Whether these settings gain enough to bother: when measured once more, in nine of ten rounds at least they were faster
+    /// than the default ones, and in the middle by more than [`Advice::WORTH_IT`].
     pub is_worth_it: bool,
     /// The default settings' time over theirs, in rounds of their own: so many times as fast.
     pub speedup: Spread,

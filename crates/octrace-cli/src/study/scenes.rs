@@ -50,12 +50,12 @@ pub struct StudyScene {
 }
 
 impl StudyScene {
-    /// The scene of a file.
-    pub fn from_file(name: &str, scene: &Scene) -> Self {
+    /// The scene of a file at `path`.
+    pub fn from_file(name: &str, path: &str, scene: &Scene) -> Self {
         let depths = scene.bodies().solids.iter().map(boolean_depth).max();
         Self {
             name: name.into(),
-            description: "from a file".into(),
+            description: path.into(),
             family: None,
             sweep: true,
             tree_depth: depths.unwrap_or(0),

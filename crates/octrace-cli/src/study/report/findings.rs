@@ -1,6 +1,6 @@
 //! What the figures say, in sentences.
 
-use super::format::{number, whole};
+use super::format::{number, range, whole};
 use super::look_up::{steps_of_both, traversals, with_traversal};
 use crate::study::plan::Config;
 use crate::study::results::{Advice, SceneReport, Study};
@@ -10,12 +10,18 @@ use maud::{Markup, html};
 
 /// The findings, as a list.
 pub fn findings(study: &Study) -> Markup {
-    let growth = Family::ALL.into_iter().filter_map(|family| growth(study, family));
-    let sentences: Vec<Markup> =
-        growth.chain([fastest(study), step(study), memory(study), settings(study)].into_iter().flatten()).collect();
+    let growth: Vec<Markup> = Family::ALL.into_iter().filter_map(|family| growth(study, family)).collect();
+    let others = [fastest(study), step(study), memory(study)].into_iter().flatten();
+    // Whoever studies a file wants to know this first.
+    let settings = settings(study);
+    let sentences: Vec<Markup> = match growth.is_empty() {
+        true => settings.into_iter().chain(others).collect(),
+        false => growth.into_iter().chain(others).chain(settings).collect(),
+    };
     html! {
         h2 id="findings" { "Findings" }
         (equality(study))
+        p.quiet { "Numbers are medians, over the scenes where there are several; in brackets the least and the greatest." }
         ul { @for sentence in &sentences { li { (sentence) } } }
     }
 }
@@ -109,11 +115,10 @@ fn step(study: &Study) -> Option<Markup> {
     let ratio = Spread::of(pairs.iter().map(|(b, f)| b.ns_per_cell.median / f.ns_per_step().median));
     let longer = Spread::of(pairs.iter().map(|(b, f)| f.grid_steps_per_ray.unwrap_or(1.0) / b.cells_per_ray));
     Some(html! {
-        "A step of " code { "bresenham" } " takes " (number(tree.median)) " ns (" (number(tree.min)) "–" (number(tree.max))
-        " over the scenes), one of " code { "fujimoto" } "’s grid " (number(grid.median)) " ns (" (number(grid.min)) "–"
-        (number(grid.max)) "): " strong { (number(ratio.median)) " times" } " as much (" (number(ratio.min)) "–"
-        (number(ratio.max)) "). But the grid needs " (number(longer.median)) " steps (" (number(longer.min)) "–"
-        (number(longer.max)) ") for each cell of the octree."
+        "A step of " code { "bresenham" } " takes " (number(tree.median)) " ns" (range(&tree)) ", one of "
+        code { "fujimoto" } "’s grid " (number(grid.median)) " ns" (range(&grid)) ": "
+        strong { (number(ratio.median)) " times" } " as much" (range(&ratio)) ". But the grid needs "
+        (number(longer.median)) " steps" (range(&longer)) " for each cell of the octree."
     })
 }
 
@@ -125,8 +130,8 @@ fn memory(study: &Study) -> Option<Markup> {
     let ratio = Spread::of(rows.map(|row| row.grid_over_tree));
     Some(html! {
         "With " (deepest) " levels and one surface a leaf, " code { "fujimoto" } "’s grid takes "
-        strong { (number(ratio.median)) " times" } " the memory of " code { "bresenham" } "’s tree with the same smallest cell ("
-        (number(ratio.min)) "–" (number(ratio.max)) " over the scenes)."
+        strong { (number(ratio.median)) " times" } " the memory of " code { "bresenham" } "’s tree with the same smallest cell"
+        (range(&ratio)) "."
     })
 }
 

@@ -8,17 +8,28 @@ pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return "–".into();
     }
-    let digits_before = if value.abs() < 1.0 { 1 } else { value.abs().log10().floor() as i32 + 1 };
-    let leading_zeros = if value == 0.0 || value.abs() >= 1.0 { 0 } else { -value.abs().log10().floor() as i32 - 1 };
-    if digits_before >= 3 {
-        return whole(value.round() as u64);
+    if value == 0.0 {
+        return "0".into();
     }
-    format!("{value:.*}", (3 - digits_before + leading_zeros).clamp(0, 9) as usize)
+    // Digits before the point; for what is less than 0.1, the zeros after it, negative.
+    let magnitude = value.abs().log10().floor() as i32 + 1;
+    match 3 - magnitude {
+        decimals @ 1.. => format!("{value:.*}", decimals.min(9) as usize),
+        _ => whole(value.round() as u64),
+    }
 }
 
 /// Thousands apart.
 pub fn whole(value: u64) -> String {
     indicatif::HumanCount(value).to_string()
+}
+
+/// In brackets, from where to where values go that differ from scene to scene; nothing where they do not.
+pub fn range(values: &Spread) -> String {
+    if values.min == values.max {
+        return String::new();
+    }
+    format!(" ({}–{})", number(values.min), number(values.max))
 }
 
 /// A time with a unit that fits.
@@ -38,7 +49,8 @@ fn unit_of_time(seconds: f64) -> (f64, &'static str) {
     match seconds {
         s if s >= 1.0 => (1.0, "s"),
         s if s >= 1e-3 => (1e3, "ms"),
-        _ => (1e6, "µs"),
+        s if s >= 1e-6 => (1e6, "µs"),
+        _ => (1e9, "ns"),
     }
 }
 
@@ -62,7 +74,7 @@ mod tests {
     #[test]
     fn three_digits_that_count() {
         for (value, expected) in [
-            (0.0, "0.00"),
+            (0.0, "0"),
             (0.012_34, "0.0123"),
             (0.5, "0.500"),
             (1.0, "1.00"),

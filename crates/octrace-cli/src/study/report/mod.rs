@@ -106,7 +106,7 @@ fn settings(study: &Study) -> Markup {
         @if !tried.is_empty() {
             h2 id="settings" { "Which settings suit which scene" }
             @for scene in tried {
-                h3 { (scene.name) ", " (scene.description) }
+                h3 { (scene.name) @if scene.name != scene.description { ": " (scene.description) } }
                 @if let Some(advice) = &scene.advice { (advice_in_words(advice)) }
                 @if let Some(drawn) = figure(&figures::settings(scene), &figures::settings_caption()) { (drawn) }
                 details { summary { "All settings" } (tables::settings(scene)) }
@@ -127,6 +127,8 @@ fn advice_in_words(advice: &Advice) -> Markup {
                     Some(rays) => { "They take longer to build, which pays from " (whole(rays.ceil() as u64)) " rays on." }
                     None => { "They take no longer to build." }
                 }
+            } @else if advice.is_default {
+                "Stay with the default settings: none of the others was faster."
             } @else {
                 "Stay with the default settings. The fastest of the others, " code { (advice.options) } ", was "
                 (number(speedup.median)) " times as fast (" (number(speedup.min)) "–" (number(speedup.max)) ") when measured \

@@ -23,7 +23,10 @@ pub struct Plot<'a> {
 }
 
 /// Width and height in pixels.
-const SIZE_PX: (u32, u32) = (660, 400);
+const SIZE_PX: (u32, u32) = (860, 400);
+
+/// Room for the legend, on the right.
+const LEGEND_PX: i32 = 200;
 
 /// Colours that people with any kind of colour vision can tell apart [after Okabe and Ito]; black comes first.
 const COLORS: [RGBColor; 8] = [
@@ -50,7 +53,7 @@ impl Plot<'_> {
         let mut x_ticks: Vec<f64> = points().map(|p| p.0).collect();
         x_ticks.sort_by(f64::total_cmp);
         x_ticks.dedup();
-        self.draw(&mut svg, (x_from / 1.05, x_to * 1.05), (y_from / 1.3, y_to * 1.5), x_ticks).ok()?;
+        self.draw(&mut svg, (x_from / 1.05, x_to * 1.05), (y_from / 1.2, y_to * 1.2), x_ticks).ok()?;
         Some(svg)
     }
 
@@ -79,20 +82,15 @@ impl Plot<'_> {
             .bold_line_style(RGBColor(210, 210, 210))
             .light_line_style(RGBColor(240, 240, 240))
             .draw()?;
-        for (line, color) in std::iter::zip(&self.lines, COLORS.iter().cycle()) {
+        let legend_x = SIZE_PX.0 as i32 - LEGEND_PX + 14;
+        let styles = COLORS.iter().map(|color| color.stroke_width(2)).cycle();
+        for (place, (line, style)) in (0..).zip(std::iter::zip(&self.lines, styles)) {
             let drawn: Vec<(f64, f64)> = line.points.iter().copied().filter(|(x, y)| *x > 0.0 && *y > 0.0).collect();
-            let style = color.stroke_width(2);
-            chart
-                .draw_series(LineSeries::new(drawn, style).point_size(3))?
-                .label(&line.name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], style));
+            chart.draw_series(LineSeries::new(drawn, style).point_size(3))?;
+            let y = 24 + 20 * place;
+            area.draw(&PathElement::new([(legend_x, y), (legend_x + 18, y)], style))?;
+            area.draw(&Text::new(line.name.as_str(), (legend_x + 24, y - 7), ("sans-serif", 13)))?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
-            .background_style(WHITE.mix(0.8))
-            .label_font(("sans-serif", 13))
-            .draw()?;
         area.present()
     }
 }

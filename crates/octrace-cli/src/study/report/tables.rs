@@ -11,7 +11,7 @@ pub fn defaults(study: &Study) -> Markup {
         div.scroll { table {
             thead { tr {
                 th.text { "scene" } th { "primitives" } th.text { "traversal" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "picture" }
+                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" } th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for scene in &study.scenes { (scene_rows(study, scene)) } }
@@ -29,7 +29,7 @@ fn scene_rows(study: &Study, scene: &SceneReport) -> Markup {
             td.text { (scene.name) } td { (whole(scene.primitives as u64)) } td.text { "none" } td {} td {} td {}
             td { (spread_seconds(&canonical.build_seconds)) } td {}
             td { (number(canonical.surface_tests_per_ray)) } td {}
-            td { (spread(&canonical.ns_per_ray)) } td { (seconds(canonical.picture_seconds.median)) }
+            td { (spread_seconds(&canonical.ns_per_ray.times(1e-9))) } td { (seconds(canonical.picture_seconds.median)) }
             td { (number(canonical.mrays_per_second)) } td { (spread(&canonical.ratio_to_default)) } td { "1" }
         }
         @for (run, f) in runs {
@@ -53,7 +53,7 @@ fn cost_cells(f: &Figures, is_best: bool) -> Markup {
     html! {
         td { (number(f.cells_per_ray)) } td { (number(f.surface_tests_per_ray)) }
         td { (number(f.walk.ns_per_step().median)) }
-        td.best[is_best] { (spread(&f.ns_per_ray)) } td { (seconds(f.picture_seconds.median)) }
+        td.best[is_best] { (spread_seconds(&f.ns_per_ray.times(1e-9))) } td { (seconds(f.picture_seconds.median)) }
         td { (number(f.mrays_per_second)) } td { (spread(&f.ratio_to_default)) }
         td { (number(f.speedup_over_canonical.median)) }
     }
@@ -100,7 +100,7 @@ pub fn settings(scene: &SceneReport) -> Markup {
         div.scroll { table {
             thead { tr {
                 th.text { "traversal" } th { "p" } th { "depth asked" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "ns/ray" } th { "picture" }
+                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" } th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for run in scene.runs.iter().filter(|run| run.status != Status::SameTree) {
