@@ -169,7 +169,7 @@ impl Tracer {
 
     /// Where a box lies with respect to the solid. `Outside` and `Inside` are certain; `Crossing` may be either.
     pub fn classify_box(&self, bounds: &Bounds) -> Side {
-        let cell = CellBox { center: bounds.center(), half: bounds.size() * 0.5 };
+        let cell = CellBox::new(bounds.center(), bounds.size() * 0.5);
         let mut result = Side::Outside;
         for body in &self.bodies {
             match body.classify(&self.catalog, &cell) {
