@@ -1,7 +1,7 @@
 //! Building: every cell hands its children only what survived in it.
 
 use super::{CellWord, Kind, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
 use rayon::prelude::*;
@@ -78,10 +78,12 @@ pub fn build(
     let builder = Builder { catalog, octree: &octree, leaf_surfaces: options.leaf_surfaces, depth, exec };
     let mut simplifier = Simplifier::default();
     let mut reduced = Vec::new();
-    let result = match simplifier.simplify(catalog, words, &octree.grown(center, half), &mut reduced) {
-        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-        Simplified::Reduced => builder.top_cell(&reduced, center, half, 0),
-    };
+    let result =
+        match simplifier.simplify(catalog, &without_repeats(catalog, words), &octree.grown(center, half), &mut reduced)
+        {
+            Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
+            Simplified::Reduced => builder.top_cell(&reduced, center, half, 0),
+        };
     exec.progress.end();
     let tree = result?;
     octree.root = tree.root;
