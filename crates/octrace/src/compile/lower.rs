@@ -183,7 +183,7 @@ impl Lowering {
             return Lowered::constant(negated);
         };
         let bounds = reliable_bounds(primitive, map, &inverse);
-        if exceeds_numbers(primitive, &bounds, &inverse) {
+        if primitive.exceeds_numbers(&bounds, &inverse) {
             return Lowered::constant(negated);
         }
         let leaf = self.leaves.len() as u32;
@@ -256,23 +256,6 @@ fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bou
     // The margins of cells cover the usual.
     let usual = 1e-9 * bounds.size().max_abs() + 1e-13 * bounds.min.max_abs().max(bounds.max.max_abs());
     if off.max_abs() <= usual { bounds } else { Bounds::new(bounds.min - off, bounds.max + off) }
-}
-
-/// Lengths from the inverse of this up to this are told apart; what is larger or thinner is nothing. Then the fourth powers
-/// that finding crossings takes are numbers, whatever the ray.
-const LONGEST: f64 = 1e30;
-
-/// Whether a bounded primitive is too large, too far away, or too thin to calculate with.
-fn exceeds_numbers(primitive: &Primitive, bounds: &Bounds, inverse: &Affine) -> bool {
-    let thin = match primitive {
-        Primitive::HalfSpace => return false,
-        Primitive::Torus { minor } => *minor < 1.0 / LONGEST,
-        _ => false,
-    };
-    let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
-    let steepest = inverse.rows.iter().map(|row| row.max_abs()).fold(0.0, f64::max);
-    // Also where a number is NaN.
-    thin || !(farthest <= LONGEST && steepest <= LONGEST)
 }
 
 /// The faces of one primitive, moved to the scene by `map`.
