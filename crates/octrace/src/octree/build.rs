@@ -1,11 +1,13 @@
 //! Building: every cell hands its children only what survived in it.
 
 use super::{CellWord, Kind, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
+use crate::surface::CellBox;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// When to stop cutting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +15,7 @@ pub struct BuildOptions {
     /// A cell with this many different surfaces or fewer is a leaf: the paper's *p*, which counts primitives (a block has six
     /// surfaces). More than [`MAX_LEAF_SURFACES`](Self::MAX_LEAF_SURFACES) count as that many.
     pub leaf_surfaces: usize,
-    /// Levels below the root; `None` chooses by the number of surfaces.
+    /// Levels below the root at most; `None` leaves it to `leaf_surfaces`, and to a bound on the work of building.
     pub depth: Option<u32>,
 }
 
@@ -28,11 +30,6 @@ impl BuildOptions {
     pub const MAX_LEAF_SURFACES: usize = 64;
     /// The deepest octree that can be asked for; cells must stay large compared to their margin.
     pub const MAX_DEPTH: u32 = 20;
-
-    fn depth_for(&self, literals: usize, max_depth: u32) -> u32 {
-        let by_size = ((literals.max(1) as f64).log2() / 3.0).ceil() as u32 + 3;
-        self.depth.unwrap_or(by_size).min(max_depth)
-    }
 }
 
 /// Builds the octree of a body, no deeper than `max_depth` (at most [`BuildOptions::MAX_DEPTH`]); `None` where nothing in it
@@ -61,8 +58,7 @@ pub fn build(
     // Hits are computed to some 1e-14 of the distances involved; the margin leaves plenty.
     let margin = (1e-8 * half).max(1e-12 * farthest);
 
-    let literals = words.iter().filter(|&&w| matches!(Word::decode(w), Word::Literal { .. })).count();
-    let depth = options.depth_for(literals, max_depth);
+    let depth = options.depth.unwrap_or(BuildOptions::MAX_DEPTH).min(max_depth);
     let mut octree = Octree {
         center,
         half,
@@ -78,10 +74,15 @@ pub fn build(
     let builder = Builder { catalog, octree: &octree, leaf_surfaces: options.leaf_surfaces, depth, exec };
     let mut simplifier = Simplifier::default();
     let mut reduced = Vec::new();
-    let result = match simplifier.simplify(catalog, words, &octree.grown(center, half), &mut reduced) {
-        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-        Simplified::Reduced => builder.top_cell(&reduced, center, half, 0),
-    };
+    let result =
+        match simplifier.simplify(catalog, &without_repeats(catalog, words), &octree.grown(center, half), &mut reduced)
+        {
+            Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
+            Simplified::Reduced => {
+                let budget = MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64;
+                builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
+            }
+        };
     exec.progress.end();
     let tree = result?;
     octree.root = tree.root;
@@ -98,6 +99,13 @@ fn short(v: f64) -> f64 {
     let (fraction, exponent) = libm::frexp(v);
     libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
 }
+
+/// Cutting may read every word of the program so many times, at most. Where surfaces lie apart from each other, as they
+/// mostly do, a tenth of it is enough; where all are everywhere, cutting would go on for nothing. Every cell has its share,
+/// by the length of its program: whatever is spent in one corner, no other goes short.
+const MOST_WORDS_READ: u64 = 4000;
+/// And so many words for small programs.
+const MOST_WORDS_READ_AT_LEAST: u64 = 1 << 18;
 
 /// Progress is counted in cells of this level.
 const PROGRESS_LEVEL: u32 = 3;
@@ -171,6 +179,31 @@ impl Subtree {
     }
 }
 
+/// Where a cell is.
+#[derive(Clone, Copy)]
+struct Place {
+    center: Vec3,
+    half: f64,
+    level: u32,
+}
+
+impl Place {
+    fn child(self, octant: usize) -> Self {
+        let half = self.half / 2.0;
+        Self { center: Octree::child_center(self.center, half, octant), half, level: self.level + 1 }
+    }
+}
+
+/// How many words are read to cut a cell.
+fn cost_of_cutting(words: &[u32]) -> u64 {
+    8 * words.len() as u64
+}
+
+/// The part of a budget for a child with so many words of all.
+fn share(budget: u64, words: usize, all: usize) -> u64 {
+    (u128::from(budget) * words as u128 / all.max(1) as u128) as u64
+}
+
 struct Builder<'a> {
     catalog: &'a Catalog,
     /// Only for its geometry.
@@ -182,39 +215,49 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     /// Builds a cell near the root: its children in parallel.
-    fn top_cell(&self, words: &[u32], center: Vec3, half: f64, level: u32) -> Result<Subtree, Cancelled> {
+    fn top_cell(&self, words: &[u32], place: Place, budget: u64) -> Result<Subtree, Cancelled> {
         self.exec.cancel.check()?;
         let mut tree = Subtree::constant(false);
-        if self.is_leaf(words, level) {
+        if self.is_leaf(words, place.level, budget) {
             tree.root = tree.intern(words);
-            tree.depth = level;
-            self.advance(level);
+            tree.depth = place.level;
+            self.advance(place.level);
             return Ok(tree);
         }
-        if level >= PARALLEL_LEVELS {
+        if place.level >= PARALLEL_LEVELS {
             let mut simplifier = Simplifier::default();
             let mut stack = words.to_vec();
             let end = stack.len();
-            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, (0, end), center, half, level)?;
+            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, 0..end, place, budget)?;
             tree.classified = simplifier.classified;
             return Ok(tree);
         }
-        let child_half = half / 2.0;
-        let children: Vec<Result<Subtree, Cancelled>> = (0..8)
+        let simplified: Vec<(Simplified, Vec<u32>, u64)> = (0..8)
             .into_par_iter()
             .map(|octant| {
-                let child_center = Octree::child_center(center, child_half, octant);
                 let mut reduced = Vec::new();
                 let mut simplifier = Simplifier::default();
-                let cell = self.octree.grown(child_center, child_half);
-                let mut child = match simplifier.simplify(self.catalog, words, &cell, &mut reduced) {
+                let cell = self.grown(place.child(octant));
+                let simplified = simplifier.simplify(self.catalog, words, &cell, &mut reduced);
+                (simplified, reduced, simplifier.classified)
+            })
+            .collect();
+        let left = budget - cost_of_cutting(words);
+        let all: usize = simplified.iter().map(|(_, reduced, _)| reduced.len()).sum();
+        let children: Vec<Result<Subtree, Cancelled>> = simplified
+            .into_par_iter()
+            .enumerate()
+            .map(|(octant, (simplified, reduced, classified))| {
+                let mut child = match simplified {
                     Simplified::Constant(inside) => {
-                        self.advance(level + 1);
+                        self.advance(place.level + 1);
                         Subtree::constant(inside)
                     }
-                    Simplified::Reduced => self.top_cell(&reduced, child_center, child_half, level + 1)?,
+                    Simplified::Reduced => {
+                        self.top_cell(&reduced, place.child(octant), share(left, reduced.len(), all))?
+                    }
                 };
-                child.classified += simplifier.classified;
+                child.classified += classified;
                 Ok(child)
             })
             .collect();
@@ -229,51 +272,58 @@ impl Builder<'_> {
     }
 
     /// Builds a cell whose program is the range `program` of `stack`; leaves the stack as it was.
-    #[expect(clippy::too_many_arguments, reason = "the recursion's state, spelled out")]
     fn cell(
         &self,
         tree: &mut Subtree,
         simplifier: &mut Simplifier,
         stack: &mut Vec<u32>,
-        program: (usize, usize),
-        center: Vec3,
-        half: f64,
-        level: u32,
+        program: Range<usize>,
+        place: Place,
+        budget: u64,
     ) -> Result<CellWord, Cancelled> {
-        if self.is_leaf(&stack[program.0..program.1], level) {
-            tree.depth = tree.depth.max(level);
-            self.advance(level);
-            return Ok(tree.intern(&stack[program.0..program.1]));
+        let words = &stack[program.clone()];
+        if self.is_leaf(words, place.level, budget) {
+            tree.depth = tree.depth.max(place.level);
+            self.advance(place.level);
+            return Ok(tree.intern(words));
         }
         self.exec.cancel.check()?;
+        let left = budget - cost_of_cutting(words);
         let index = tree.branches.len();
         tree.branches.push([CellWord::OUTSIDE; 8]);
-        let child_half = half / 2.0;
+        let bottom = stack.len();
         let mut reduced = Vec::new();
-        for octant in 0..8 {
-            let child_center = Octree::child_center(center, child_half, octant);
-            let cell = self.octree.grown(child_center, child_half);
+        let mut left_over: [Range<usize>; 8] = Default::default();
+        for (octant, range) in left_over.iter_mut().enumerate() {
             reduced.clear();
-            let simplified = simplifier.simplify(self.catalog, &stack[program.0..program.1], &cell, &mut reduced);
-            tree.branches[index][octant] = match simplified {
+            let cell = self.grown(place.child(octant));
+            match simplifier.simplify(self.catalog, &stack[program.clone()], &cell, &mut reduced) {
                 Simplified::Constant(inside) => {
-                    self.advance(level + 1);
-                    if inside { CellWord::INSIDE } else { CellWord::OUTSIDE }
+                    self.advance(place.level + 1);
+                    tree.branches[index][octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
                 }
                 Simplified::Reduced => {
-                    let start = stack.len();
+                    *range = stack.len()..stack.len() + reduced.len();
                     stack.extend_from_slice(&reduced);
-                    let range = (start, stack.len());
-                    let word = self.cell(tree, simplifier, stack, range, child_center, child_half, level + 1)?;
-                    stack.truncate(start);
-                    word
                 }
-            };
+            }
         }
-        if level == PROGRESS_LEVEL {
+        let all = stack.len() - bottom;
+        for (octant, range) in left_over.into_iter().enumerate().filter(|(_, range)| !range.is_empty()) {
+            let budget = share(left, range.len(), all);
+            let word = self.cell(tree, simplifier, stack, range, place.child(octant), budget)?;
+            tree.branches[index][octant] = word;
+        }
+        stack.truncate(bottom);
+        if place.level == PROGRESS_LEVEL {
             self.exec.progress.advance(1);
         }
         Ok(tree.join(index))
+    }
+
+    /// The cell's box with its margin.
+    fn grown(&self, place: Place) -> CellBox {
+        self.octree.grown(place.center, place.half)
     }
 
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.
@@ -283,8 +333,8 @@ impl Builder<'_> {
         }
     }
 
-    fn is_leaf(&self, words: &[u32], level: u32) -> bool {
-        level >= self.depth || self.surfaces_at_most(words)
+    fn is_leaf(&self, words: &[u32], level: u32, budget: u64) -> bool {
+        level >= self.depth || cost_of_cutting(words) > budget || self.surfaces_at_most(words)
     }
 
     /// Whether a program has no more different surfaces than a leaf may.

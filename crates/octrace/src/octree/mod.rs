@@ -146,7 +146,7 @@ impl Octree {
 
     /// The box of a cell, grown by the margin.
     pub(crate) fn grown(&self, center: Vec3, half: f64) -> CellBox {
-        CellBox { center, half: Vec3::splat(half + self.margin) }
+        CellBox::with_margin(center, Vec3::splat(half), self.margin)
     }
 
     /// Counts its cells.

@@ -9,6 +9,7 @@ mod prepared;
 mod report;
 mod roots;
 mod stats;
+mod sweep;
 mod tracer;
 
 pub use options::{Accel, TracerOptions, UnknownAccel};

@@ -66,8 +66,12 @@ impl Plot<'_> {
     ) -> Result<(), DrawingAreaErrorKind<std::io::Error>> {
         let area = SVGBackend::with_string(svg, SIZE_PX).into_drawing_area();
         area.fill(&WHITE)?;
-        let mut chart =
-            ChartBuilder::on(&area).margin(12).x_label_area_size(42).y_label_area_size(68).build_cartesian_2d(
+        let mut chart = ChartBuilder::on(&area)
+            .margin(12)
+            .margin_right(LEGEND_PX)
+            .x_label_area_size(42)
+            .y_label_area_size(68)
+            .build_cartesian_2d(
                 (x_from..x_to).log_scale().with_key_points(x_ticks),
                 (y_from..y_to).log_scale().with_key_points(round_numbers(y_from, y_to)),
             )?;
