@@ -11,6 +11,9 @@ use std::fs;
 /// As little as can be measured.
 const LITTLE: [&str; 5] = ["study", "--quick", "--repeat=2", "--size=24x18", "--json=study.json"];
 
+/// Figures are written with six digits.
+const ROUNDED: f64 = 1e-4;
+
 struct Studied {
     folder: Folder,
     json: Value,
@@ -102,7 +105,7 @@ fn ratios_agree_with_the_medians() {
     // A ratio of medians lies between the least and the greatest of the ratios.
     let within = |ratio: &Value, over: f64, under: f64| {
         let [_, min, max] = spread(ratio);
-        let slack = 1e-9;
+        let slack = ROUNDED;
         assert!(min * (1.0 - slack) <= over / under && over / under <= max * (1.0 + slack), "{ratio} {over} {under}");
     };
     within(&scene["canonical"]["ratio_to_default"], canonical, usual);
@@ -110,19 +113,19 @@ fn ratios_agree_with_the_medians() {
         let ns = spread(&f["ns_per_ray"])[0];
         within(&f["ratio_to_default"], ns, usual);
         within(&f["speedup_over_canonical"], canonical, ns);
-        assert!((number(&f["mrays_per_second"]) * ns / 1e3 - 1.0).abs() < 1e-9);
-        assert!((spread(&f["picture_seconds"])[0] / (ns * rays / 1e9) - 1.0).abs() < 1e-9);
+        assert!((number(&f["mrays_per_second"]) * ns / 1e3 - 1.0).abs() < ROUNDED);
+        assert!((spread(&f["picture_seconds"])[0] / (ns * rays / 1e9) - 1.0).abs() < ROUNDED);
         let walk = &f["walk"];
         if !walk["grid_steps_per_ray"].is_null() {
             let walks = number(&walk["cells_per_ray"]) * spread(&walk["ns_per_cell"])[0];
             let steps = number(&walk["grid_steps_per_ray"]) * spread(&walk["ns_per_grid_step"])[0];
-            assert!((walks / steps - 1.0).abs() < 1e-9, "{walk}");
+            assert!((walks / steps - 1.0).abs() < ROUNDED, "{walk}");
         }
     }
     for row in list(&json["memory"]) {
         let bytes = |traversal: &str, part: &str| number(&row[traversal][part]);
         let tree = bytes("bresenham", "tree") + bytes("bresenham", "tables");
-        assert!((number(&row["grid_over_tree"]) * tree / bytes("fujimoto", "tables") - 1.0).abs() < 1e-9, "{row}");
+        assert!((number(&row["grid_over_tree"]) * tree / bytes("fujimoto", "tables") - 1.0).abs() < ROUNDED, "{row}");
         assert_eq!(bytes("fujimoto", "tables"), 5.0 * 8_f64.powi(number(&row["depth"]) as i32), "{row}");
         assert_eq!((bytes("fujimoto", "tree"), bytes("glassner", "tree")), (0.0, 0.0));
     }

@@ -35,9 +35,9 @@ pub fn study_scene(scene: &StudyScene, plan: &Plan, context: &Context<'_>) -> Re
     let to_time: Vec<Config> = measurable.iter().map(|(config, _)| *config).collect();
     let (times, canonical_times) = rounds(scene, &to_time, &picture, plan.repeat, context)?;
 
-    let usual = Spans { rays: all.len(), sparse: sparse.len(), usual: &times[0], canonical: &canonical_times };
+    let yardstick = Yardstick { rays: all.len(), sparse: sparse.len(), usual: &times[0], canonical: &canonical_times };
     let figures: Vec<Figures> = std::iter::zip(&measurable, &times)
-        .map(|((config, counts), times)| usual.figures(config, counts, times))
+        .map(|((config, counts), times)| yardstick.figures(config, counts, times))
         .collect();
     let candidates: Vec<(Config, &Figures)> = std::iter::zip(to_time, &figures).collect();
     let advice = if plan.chooses(scene) { advise(scene, &candidates, &all, plan.repeat, context)? } else { None };
@@ -51,7 +51,7 @@ pub fn study_scene(scene: &StudyScene, plan: &Plan, context: &Context<'_>) -> Re
         tree_depth: scene.tree_depth,
         rays: all.len(),
         checked,
-        canonical: usual.canonical(canonical_tests),
+        canonical: yardstick.canonical(canonical_tests),
         runs: runs(&surveyed, &figures),
         advice,
     })
@@ -73,15 +73,15 @@ fn runs(surveyed: &[Surveyed], figures: &[Figures]) -> Vec<Run> {
     surveyed.iter().map(run).collect()
 }
 
-/// What figures refer to.
-struct Spans<'a> {
+/// What times are divided by, and compared with.
+struct Yardstick<'a> {
     rays: usize,
     sparse: usize,
     usual: &'a Times,
     canonical: &'a Times,
 }
 
-impl Spans<'_> {
+impl Yardstick<'_> {
     /// Nanoseconds a ray, round by round.
     fn ns_per_ray(times: &Times, rays: usize) -> Vec<f64> {
         times.trace_s.iter().map(|seconds| seconds * 1e9 / rays.max(1) as f64).collect()

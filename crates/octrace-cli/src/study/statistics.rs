@@ -1,15 +1,18 @@
 //! What a few repeated measurements say: the middle, and from where to where they go.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Median and extremes of a handful of values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// As many values are smaller as are larger.
+    #[serde(serialize_with = "six_digits")]
     pub median: f64,
     /// The smallest.
+    #[serde(serialize_with = "six_digits")]
     pub min: f64,
     /// The largest.
+    #[serde(serialize_with = "six_digits")]
     pub max: f64,
 }
 
@@ -37,6 +40,12 @@ impl Spread {
     }
 }
 
+/// No clock says more.
+fn six_digits<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(*value);
+    serializer.serialize_f64(rounded)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,6 +55,12 @@ mod tests {
         assert_eq!(Spread::of([3.0, 1.0, 2.0]), Spread { median: 2.0, min: 1.0, max: 3.0 });
         assert_eq!(Spread::of([4.0, 1.0, 2.0, 3.0]).median, 2.5);
         assert!(Spread::of([]).median.is_nan());
+    }
+
+    #[test]
+    fn six_digits_are_written() {
+        let json = serde_json::to_string(&Spread::of([1.0 / 3.0, 12_345_678.9, 2e-7 / 3.0])).unwrap();
+        assert_eq!(json, r#"{"median":0.333333,"min":6.66667e-8,"max":12345700.0}"#);
     }
 
     #[test]

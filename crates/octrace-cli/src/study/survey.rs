@@ -42,6 +42,9 @@ pub struct Counts {
     pub lengths: Lengths,
 }
 
+/// The first hit of each ray.
+type Hits = Vec<Option<Hit>>;
+
 /// A scene's picture, and what the canonical tracer sees of it.
 pub struct Picture<'a> {
     /// All rays.
@@ -58,12 +61,17 @@ impl Picture<'_> {
         const EVERY: usize = 3;
         self.rays.iter().step_by(EVERY)
     }
+
+    /// What the canonical tracer sees, and where it was not asked, these hits.
+    fn expected(&self, mut hits: Hits) -> Hits {
+        for (&i, hit) in std::iter::zip(self.sparse, self.canonical_hits) {
+            hits[i] = *hit;
+        }
+        hits
+    }
 }
 
-/// The first hit of each ray.
-type Hits = Vec<Option<Hit>>;
-
-/// Looks at every configuration. The first one must be such that it can be built.
+/// Looks at every configuration; says what the comparison of their hits comes to.
 pub fn survey(
     scene: &StudyScene,
     configs: &[Config],
@@ -74,94 +82,86 @@ pub fn survey(
     context.progress.begin("comparing hits", configs.len() as u64);
     let mut surveyed: Vec<Surveyed> = Vec::new();
     let mut checked = Checked::default();
-    // What is seen: what the canonical tracer sees, and where it was not asked, what the first configuration sees.
     let mut expected: Option<Hits> = None;
     for config in configs {
-        let looked_at = look(scene, config, &surveyed, picture, longest_build_s, context)?;
-        if let (one, Some(hits)) = &looked_at {
-            let sparse = picture.sparse.iter().map(|&i| &hits[i]);
-            let differing = rays::differing(sparse, picture.canonical_hits.iter());
-            let others = expected.get_or_insert_with(|| hits.clone());
-            for (&i, hit) in std::iter::zip(picture.sparse, picture.canonical_hits) {
-                others[i] = *hit;
-            }
-            let leaks = one.counts.map_or(0, |counts| counts.counters.leaks);
+        let (mut one, tracer) = look(scene, config, &surveyed, longest_build_s, context)?;
+        if let Some(tracer) = tracer {
+            let (hits, counters) = rays::trace(&tracer, picture.rays.iter(), context.interrupt)?;
+            one.counts = Some(Counts {
+                octree: tracer.stats().octree.unwrap_or_default(),
+                bytes: bytes_of(&tracer, config),
+                counters,
+                lengths: Ways::new(&tracer, picture.walking()).lengths(),
+            });
+            let expected = expected.get_or_insert_with(|| picture.expected(hits.clone()));
             checked = checked.and(Checked {
                 configurations: 1,
                 hits: hits.len() as u64,
                 canonical_hits: picture.sparse.len() as u64,
-                differing: differing.max(rays::differing(hits.iter(), others.iter())),
-                leaks,
+                differing: rays::differing(hits.iter(), expected.iter()),
+                leaks: counters.leaks,
             });
         }
-        surveyed.push(looked_at.0);
+        surveyed.push(one);
         context.progress.advance(1);
     }
     context.progress.end();
     Ok((surveyed, checked))
 }
 
-/// Looks at one configuration; the second value is what it sees, if it is to be measured.
+/// Whether a configuration is to be measured; the tracer, if it is.
 fn look(
     scene: &StudyScene,
     config: &Config,
     earlier: &[Surveyed],
-    picture: &Picture<'_>,
     longest_build_s: f64,
     context: &Context<'_>,
-) -> Result<(Surveyed, Option<Hits>), Failure> {
-    let left_out = |status: Status, note: String, build_seconds: Option<f64>| {
-        Ok((Surveyed { config: *config, status, note: Some(note), same_as: None, counts: None, build_seconds }, None))
+) -> Result<(Surveyed, Option<Tracer>), Failure> {
+    let mut one = Surveyed {
+        config: *config,
+        status: Status::Measured,
+        note: None,
+        same_as: None,
+        counts: None,
+        build_seconds: None,
     };
-    if let Some(slow) = earlier.iter().find(|other| other.is_too_slow_for(config, longest_build_s)) {
-        let note = format!("with depth {} building took {:.1} s", slow.config.depth, slow.build_seconds.unwrap_or(0.0));
-        return left_out(Status::TooSlowToBuild, note, None);
+    if let Some((slow, seconds)) = earlier.iter().find_map(|other| other.too_slow_for(config, longest_build_s)) {
+        one.status = Status::TooSlowToBuild;
+        one.note = Some(format!("with depth {slow} building took {seconds:.1} s"));
+        return Ok((one, None));
     }
     let watch = Stopwatch::start();
     let tracer = context.build(scene, &config.options(scene.snap))?;
-    let build_seconds = Some(watch.elapsed());
+    one.build_seconds = Some(watch.elapsed());
     let octree = tracer.stats().octree.unwrap_or_default();
 
     let most = config.traversal.max_depth();
-    let is_cut_off = octree.depth == most && config.depth.levels().is_none_or(|levels| levels > most);
-    if is_cut_off && config.depth != Depth::Auto {
-        let note = format!("{} has {most} levels at most", config.traversal);
-        return left_out(Status::NotPossible, note, build_seconds);
+    if octree.depth == most && config.depth.levels().is_none_or(|levels| levels > most) {
+        one.note = Some(format!("{} has {most} levels at most", config.traversal));
+        if config.depth != Depth::Auto {
+            one.status = Status::NotPossible;
+            return Ok((one, None));
+        }
     }
     let is_same = |other: &Surveyed| {
         other.config.traversal == config.traversal && other.counts.is_some_and(|counts| counts.octree == octree)
     };
     if let Some(same) = earlier.iter().position(is_same) {
         let Config { leaf_primitives, depth, .. } = earlier[same].config;
-        let note = Some(format!("the same octree as with p {leaf_primitives}, depth {depth}"));
-        let (status, same_as) = (Status::SameTree, Some(same));
-        return Ok((Surveyed { config: *config, status, note, same_as, counts: None, build_seconds }, None));
+        one.status = Status::SameTree;
+        one.same_as = Some(same);
+        one.note = Some(format!("the same octree as with p {leaf_primitives}, depth {depth}"));
+        return Ok((one, None));
     }
-    let (hits, counters) = rays::trace(&tracer, picture.rays.iter(), context.interrupt)?;
-    let counts = Counts {
-        octree,
-        bytes: bytes_of(&tracer, config),
-        counters,
-        lengths: Ways::new(&tracer, picture.walking()).lengths(),
-    };
-    let note = is_cut_off.then(|| format!("{} has {most} levels at most", config.traversal));
-    let surveyed = Surveyed {
-        config: *config,
-        status: Status::Measured,
-        note,
-        same_as: None,
-        counts: Some(counts),
-        build_seconds,
-    };
-    Ok((surveyed, Some(hits)))
+    Ok((one, Some(tracer)))
 }
 
 impl Surveyed {
-    /// Whether building this took so long that a deeper octree with the same *p* would take too long.
-    fn is_too_slow_for(&self, config: &Config, longest_build_s: f64) -> bool {
-        let (Depth::Levels(here), Depth::Levels(there)) = (self.config.depth, config.depth) else { return false };
-        let is_slow = self.build_seconds.is_some_and(|seconds| seconds > longest_build_s);
-        is_slow && here <= there && self.config.leaf_primitives == config.leaf_primitives && self.config != *config
+    /// If building this took so long that a deeper octree with the same *p* would take too long: its depth, and how long.
+    fn too_slow_for(&self, config: &Config, longest_build_s: f64) -> Option<(Depth, f64)> {
+        let (Depth::Levels(here), Depth::Levels(there)) = (self.config.depth, config.depth) else { return None };
+        let seconds = self.build_seconds.filter(|&seconds| seconds > longest_build_s)?;
+        (here < there && self.config.leaf_primitives == config.leaf_primitives).then_some((self.config.depth, seconds))
     }
 }
 
@@ -172,4 +172,35 @@ pub fn bytes_of(tracer: &Tracer, config: &Config) -> Bytes {
     let tree = if config.traversal.needs_tree() { octree.bytes - programs } else { 0 };
     let tables = tracer.octrees().map(|(_, traversal)| traversal.bytes()).sum();
     Bytes { tree, tables, programs }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_canonical_tracer_has_the_last_word() {
+        let hit = |t: f64| Some(Hit { t, leaf: 0, surface: 0, entering: true, flipped: false });
+        let picture = Picture { rays: &[], sparse: &[1], canonical_hits: &[hit(2.0)] };
+        assert_eq!(picture.expected(vec![hit(1.0), hit(1.0), None]), [hit(1.0), hit(2.0), None]);
+    }
+
+    #[test]
+    fn slow_is_slow_for_deeper_octrees_only() {
+        let config = |levels: u32| Config { depth: Depth::Levels(levels), ..Config::default() };
+        let slow = Surveyed {
+            config: config(6),
+            status: Status::Measured,
+            note: None,
+            same_as: None,
+            counts: None,
+            build_seconds: Some(5.0),
+        };
+        assert_eq!(slow.too_slow_for(&config(7), 4.0), Some((Depth::Levels(6), 5.0)));
+        let other_p = Config { leaf_primitives: 1, ..config(7) };
+        for fine in [config(6), config(5), Config::default(), other_p] {
+            assert_eq!(slow.too_slow_for(&fine, 4.0), None);
+        }
+        assert_eq!(slow.too_slow_for(&config(7), 10.0), None);
+    }
 }

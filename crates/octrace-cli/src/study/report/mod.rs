@@ -105,6 +105,13 @@ fn settings(study: &Study) -> Markup {
     html! {
         @if !tried.is_empty() {
             h2 id="settings" { "Which settings suit which scene" }
+            @if tried.len() > 1 {
+                p {
+                    "Time ÷ that of the default settings, with the default traversal, for each " em { "p" } " at the depth that \
+                     suits it best (in brackets)."
+                }
+                (tables::leaf_primitives(&tried))
+            }
             @for scene in tried {
                 h3 { (scene.name) @if scene.name != scene.description { ": " (scene.description) } }
                 @if let Some(advice) = &scene.advice { (advice_in_words(advice)) }
@@ -169,5 +176,41 @@ fn how(study: &Study) -> Markup {
                  not possible with more than eight levels; where the tracer itself would choose more, it has eight."
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::{Checked, Machine, Settings};
+
+    fn study(checked: Checked) -> Study {
+        Study {
+            octrace: "0",
+            command: "octrace study '<a>'".into(),
+            date: "then".into(),
+            seconds: 1.0,
+            machine: Machine { cpu: "a & b".into(), hardware_threads: 2, os: "an OS".into(), architecture: "a64" },
+            settings: Settings { width: 4, height: 3, repeat: 1, threads: 1 },
+            checked,
+            scenes: Vec::new(),
+            memory: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn a_defect_is_not_to_be_overlooked() {
+        let differing = Checked { hits: 1_000, differing: 3, ..Checked::default() };
+        let page_of = |checked| page(&study(checked));
+        assert!(page_of(differing).contains("<strong>3 of 1,000 hits differ</strong>"));
+        assert!(page_of(Checked { leaks: 1, ..Checked::default() }).contains("1 rays met cells that contradict"));
+        assert!(!page_of(Checked::default()).contains("defect of octrace"));
+    }
+
+    #[test]
+    fn what_is_empty_is_left_out_and_words_are_escaped() {
+        let page = page(&study(Checked::default()));
+        assert!(page.contains("a &amp; b") && page.contains("&lt;a&gt;") && !page.contains("<a>"));
+        assert!(!page.contains("<svg") && !page.contains("Which settings"), "{page}");
     }
 }

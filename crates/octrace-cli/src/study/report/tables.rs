@@ -2,6 +2,7 @@
 
 use super::format::{bytes, number, seconds, spread, spread_seconds, whole};
 use super::look_up::{figures, steps_of_both, traversals, with_traversal};
+use crate::study::plan::Config;
 use crate::study::results::{Figures, Run, SceneReport, Status, Study};
 use maud::{Markup, html};
 
@@ -89,6 +90,36 @@ fn step_row(scene: &SceneReport, names: &[&str]) -> Markup {
             td { (ratio.map_or("–".into(), number)) } td { (grid.map_or("–".into(), number)) }
         }
     }
+}
+
+/// How each *p* does at its best depth, scene by scene, with the default traversal.
+pub fn leaf_primitives(scenes: &[&SceneReport]) -> Markup {
+    let mut values: Vec<usize> = scenes.iter().flat_map(|scene| &scene.runs).map(|run| run.leaf_primitives).collect();
+    values.sort_unstable();
+    values.dedup();
+    html! {
+        div.scroll { table {
+            thead { tr { th.text { "p" } @for scene in scenes { th { (scene.name) } } } }
+            tbody { @for &p in &values {
+                tr.usual[p == Config::default().leaf_primitives] {
+                    td.text { (p) }
+                    @for scene in scenes {
+                        td { @match best_depth(scene, p) {
+                            Some((ratio, depth)) => { (number(ratio)) " " small { "(" (depth) ")" } }
+                            None => "–",
+                        } }
+                    }
+                }
+            } }
+        } }
+    }
+}
+
+/// The least time with this *p* and the default traversal, relative to the default settings, and the depth that was reached.
+fn best_depth(scene: &SceneReport, p: usize) -> Option<(f64, u32)> {
+    let is_meant = |run: &&Run| run.leaf_primitives == p && run.traversal == Config::default().traversal.name();
+    let figures = scene.runs.iter().filter(is_meant).filter_map(|run| figures(scene, run));
+    figures.map(|f| (f.ratio_to_default.median, f.octree.depth)).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// All settings of one scene.
