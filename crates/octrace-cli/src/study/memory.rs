@@ -14,11 +14,14 @@ use octrace::traverse::TraversalKind;
 /// building takes too long.
 pub fn weigh(scene: &StudyScene, plan: &Plan, context: &Context<'_>) -> Result<Vec<MemoryRow>, Failure> {
     let mut rows: Vec<MemoryRow> = Vec::new();
-    for leaf_primitives in [1, Config::default().leaf_primitives] {
+    let limits = [1, Config::default().leaf_primitives];
+    context.progress.begin("weighing octrees", (limits.len() * plan.weighed_depths().count()) as u64);
+    for leaf_primitives in limits {
         for levels in plan.weighed_depths() {
             let watch = Stopwatch::start();
             let config = |traversal| Config { traversal, leaf_primitives, depth: Depth::Levels(levels) };
             let row = row(scene, config, context)?;
+            context.progress.advance(1);
             // Deeper ones would be the same.
             let is_known = rows.iter().any(|r| r.leaf_primitives == leaf_primitives && r.depth == row.depth);
             if !is_known {
@@ -29,6 +32,7 @@ pub fn weigh(scene: &StudyScene, plan: &Plan, context: &Context<'_>) -> Result<V
             }
         }
     }
+    context.progress.end();
     Ok(rows)
 }
 

@@ -101,9 +101,13 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Values of *p* from the least to more than is good.
+    /// Values of *p* from the least to more than is good, the default one among them.
     fn usual_leaf_primitives(&self) -> Vec<usize> {
-        if self.quick { vec![3, 6, 12] } else { vec![1, 3, 6, 12, 24] }
+        let mut values = if self.quick { vec![3, 6, 12] } else { vec![1, 3, 6, 12, 24] };
+        values.push(Config::default().leaf_primitives);
+        values.sort_unstable();
+        values.dedup();
+        values
     }
 
     /// Depths about the one that the default settings lead to.
