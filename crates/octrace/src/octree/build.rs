@@ -1,12 +1,12 @@
 //! Building: every cell hands its children only what survived in it.
 
-use super::{CellWord, Kind, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end, without_repeats};
+use super::subtree::Subtree;
+use super::{CellWord, Octree};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
 use crate::surface::CellBox;
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// When to stop cutting.
@@ -74,15 +74,17 @@ pub fn build(
     let builder = Builder { catalog, octree: &octree, leaf_surfaces: options.leaf_surfaces, depth, exec };
     let mut simplifier = Simplifier::default();
     let mut reduced = Vec::new();
-    let result =
-        match simplifier.simplify(catalog, &without_repeats(catalog, words), &octree.grown(center, half), &mut reduced)
-        {
-            Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-            Simplified::Reduced => {
-                let budget = MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64;
-                builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
-            }
-        };
+    let words = without_repeats(catalog, words);
+    let result = match simplifier.simplify(catalog, &words, &octree.grown(center, half), &mut reduced) {
+        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
+        Simplified::Reduced => {
+            let budget = match options.depth {
+                Some(_) => u64::MAX,
+                None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
+            };
+            builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
+        }
+    };
     exec.progress.end();
     let tree = result?;
     octree.root = tree.root;
@@ -100,7 +102,7 @@ fn short(v: f64) -> f64 {
     libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
 }
 
-/// Cutting may read every word of the program so many times, at most. Where surfaces lie apart from each other, as they
+/// Where no depth is asked for, cutting may read every word of the program so many times. Where surfaces lie apart from each other, as they
 /// mostly do, a tenth of it is enough; where all are everywhere, cutting would go on for nothing. Every cell has its share,
 /// by the length of its program: whatever is spent in one corner, no other goes short.
 const MOST_WORDS_READ: u64 = 4000;
@@ -112,72 +114,6 @@ const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
 /// Cells above this level are built in parallel, each child for itself.
 const PARALLEL_LEVELS: u32 = 3;
-
-/// A part of the tree with tables of its own.
-struct Subtree {
-    root: CellWord,
-    branches: Vec<[CellWord; 8]>,
-    programs: Vec<u32>,
-    /// Offsets of the programs so far; equal ones are stored once.
-    interned: HashMap<Box<[u32]>, u32>,
-    depth: u32,
-    classified: u64,
-}
-
-impl Subtree {
-    fn constant(inside: bool) -> Self {
-        Self {
-            root: if inside { CellWord::INSIDE } else { CellWord::OUTSIDE },
-            branches: Vec::new(),
-            programs: Vec::new(),
-            interned: HashMap::new(),
-            depth: 0,
-            classified: 0,
-        }
-    }
-
-    /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
-    fn join(&mut self, index: usize) -> CellWord {
-        let children = self.branches[index];
-        let uniform = children[0] == CellWord::OUTSIDE || children[0] == CellWord::INSIDE;
-        if uniform && index + 1 == self.branches.len() && children.iter().all(|&child| child == children[0]) {
-            self.branches.pop();
-            return children[0];
-        }
-        CellWord::branch(index as u32)
-    }
-
-    fn intern(&mut self, program: &[u32]) -> CellWord {
-        if let Some(&offset) = self.interned.get(program) {
-            return CellWord::leaf(offset);
-        }
-        let offset = self.programs.len() as u32;
-        self.programs.extend_from_slice(program);
-        self.interned.insert(program.into(), offset);
-        CellWord::leaf(offset)
-    }
-
-    /// Takes over another subtree's tables; returns its root as seen from here.
-    fn adopt(&mut self, other: Subtree) -> CellWord {
-        let first_branch = self.branches.len() as u32;
-        let mut moved: HashMap<u32, CellWord> = HashMap::new();
-        let mut relocate = |tree: &mut Self, word: CellWord| match word.kind() {
-            Kind::Branch(index) => CellWord::branch(first_branch + index),
-            Kind::Leaf(offset) => *moved.entry(offset).or_insert_with(|| {
-                let start = offset as usize;
-                tree.intern(&other.programs[start..node_end(&other.programs, start)])
-            }),
-            Kind::Outside | Kind::Inside => word,
-        };
-        for branch in &other.branches {
-            let branch = branch.map(|word| relocate(self, word));
-            self.branches.push(branch);
-        }
-        self.depth = self.depth.max(other.depth);
-        self.classified += other.classified;
-        relocate(self, other.root)
-    }
-}
 
 /// Where a cell is.
 #[derive(Clone, Copy)]
