@@ -30,6 +30,14 @@ impl Subtree {
         }
     }
 
+    /// A subtree of one leaf.
+    pub fn leaf(words: &[u32], level: u32) -> Self {
+        let mut tree = Self::constant(false);
+        tree.root = tree.intern(words);
+        tree.depth = level;
+        tree
+    }
+
     /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
     pub fn join(&mut self, index: usize) -> CellWord {
         let children = self.branches[index];
