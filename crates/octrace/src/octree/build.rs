@@ -1,12 +1,12 @@
 //! Building: every cell hands its children only what survived in it.
 
-use super::{CellWord, Kind, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end, without_repeats};
+use super::subtree::Subtree;
+use super::{CellWord, Octree};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
 use crate::surface::CellBox;
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// When to stop cutting.
@@ -15,7 +15,8 @@ pub struct BuildOptions {
     /// A cell with this many different surfaces or fewer is a leaf: the paper's *p*, which counts primitives (a block has six
     /// surfaces). More than [`MAX_LEAF_SURFACES`](Self::MAX_LEAF_SURFACES) count as that many.
     pub leaf_surfaces: usize,
-    /// Levels below the root at most; `None` leaves it to `leaf_surfaces`, and to a bound on the work of building.
+    /// Levels below the root at most, as the paper has it. `None` leaves that to the expected cost of rays, and bounds the
+    /// work of building (`docs/decisions/0004-when-to-stop.md`).
     pub depth: Option<u32>,
 }
 
@@ -71,18 +72,27 @@ pub fn build(
     };
 
     exec.progress.begin("building the octree", PROGRESS_STEPS);
-    let builder = Builder { catalog, octree: &octree, leaf_surfaces: options.leaf_surfaces, depth, exec };
+    let builder = Builder {
+        catalog,
+        octree: &octree,
+        leaf_surfaces: options.leaf_surfaces,
+        depth,
+        by_cost: options.depth.is_none(),
+        exec,
+    };
     let mut simplifier = Simplifier::default();
     let mut reduced = Vec::new();
-    let result =
-        match simplifier.simplify(catalog, &without_repeats(catalog, words), &octree.grown(center, half), &mut reduced)
-        {
-            Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-            Simplified::Reduced => {
-                let budget = MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64;
-                builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
-            }
-        };
+    let words = without_repeats(catalog, words);
+    let result = match simplifier.simplify(catalog, &words, &octree.grown(center, half), &mut reduced) {
+        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
+        Simplified::Reduced => {
+            let budget = match options.depth {
+                Some(_) => u64::MAX,
+                None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
+            };
+            builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
+        }
+    };
     exec.progress.end();
     let tree = result?;
     octree.root = tree.root;
@@ -100,7 +110,7 @@ fn short(v: f64) -> f64 {
     libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
 }
 
-/// Cutting may read every word of the program so many times, at most. Where surfaces lie apart from each other, as they
+/// Where no depth is asked for, cutting may read every word of the program so many times. Where surfaces lie apart from each other, as they
 /// mostly do, a tenth of it is enough; where all are everywhere, cutting would go on for nothing. Every cell has its share,
 /// by the length of its program: whatever is spent in one corner, no other goes short.
 const MOST_WORDS_READ: u64 = 4000;
@@ -112,72 +122,6 @@ const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
 /// Cells above this level are built in parallel, each child for itself.
 const PARALLEL_LEVELS: u32 = 3;
-
-/// A part of the tree with tables of its own.
-struct Subtree {
-    root: CellWord,
-    branches: Vec<[CellWord; 8]>,
-    programs: Vec<u32>,
-    /// Offsets of the programs so far; equal ones are stored once.
-    interned: HashMap<Box<[u32]>, u32>,
-    depth: u32,
-    classified: u64,
-}
-
-impl Subtree {
-    fn constant(inside: bool) -> Self {
-        Self {
-            root: if inside { CellWord::INSIDE } else { CellWord::OUTSIDE },
-            branches: Vec::new(),
-            programs: Vec::new(),
-            interned: HashMap::new(),
-            depth: 0,
-            classified: 0,
-        }
-    }
-
-    /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
-    fn join(&mut self, index: usize) -> CellWord {
-        let children = self.branches[index];
-        let uniform = children[0] == CellWord::OUTSIDE || children[0] == CellWord::INSIDE;
-        if uniform && index + 1 == self.branches.len() && children.iter().all(|&child| child == children[0]) {
-            self.branches.pop();
-            return children[0];
-        }
-        CellWord::branch(index as u32)
-    }
-
-    fn intern(&mut self, program: &[u32]) -> CellWord {
-        if let Some(&offset) = self.interned.get(program) {
-            return CellWord::leaf(offset);
-        }
-        let offset = self.programs.len() as u32;
-        self.programs.extend_from_slice(program);
-        self.interned.insert(program.into(), offset);
-        CellWord::leaf(offset)
-    }
-
-    /// Takes over another subtree's tables; returns its root as seen from here.
-    fn adopt(&mut self, other: Subtree) -> CellWord {
-        let first_branch = self.branches.len() as u32;
-        let mut moved: HashMap<u32, CellWord> = HashMap::new();
-        let mut relocate = |tree: &mut Self, word: CellWord| match word.kind() {
-            Kind::Branch(index) => CellWord::branch(first_branch + index),
-            Kind::Leaf(offset) => *moved.entry(offset).or_insert_with(|| {
-                let start = offset as usize;
-                tree.intern(&other.programs[start..node_end(&other.programs, start)])
-            }),
-            Kind::Outside | Kind::Inside => word,
-        };
-        for branch in &other.branches {
-            let branch = branch.map(|word| relocate(self, word));
-            self.branches.push(branch);
-        }
-        self.depth = self.depth.max(other.depth);
-        self.classified += other.classified;
-        relocate(self, other.root)
-    }
-}
 
 /// Where a cell is.
 #[derive(Clone, Copy)]
@@ -210,6 +154,8 @@ struct Builder<'a> {
     octree: &'a Octree,
     leaf_surfaces: usize,
     depth: u32,
+    /// Whether cells are cut only where that is expected to pay.
+    by_cost: bool,
     exec: &'a Exec,
 }
 
@@ -217,13 +163,11 @@ impl Builder<'_> {
     /// Builds a cell near the root: its children in parallel.
     fn top_cell(&self, words: &[u32], place: Place, budget: u64) -> Result<Subtree, Cancelled> {
         self.exec.cancel.check()?;
-        let mut tree = Subtree::constant(false);
         if self.is_leaf(words, place.level, budget) {
-            tree.root = tree.intern(words);
-            tree.depth = place.level;
             self.advance(place.level);
-            return Ok(tree);
+            return Ok(Subtree::leaf(words, place.level));
         }
+        let mut tree = Subtree::constant(false);
         if place.level >= PARALLEL_LEVELS {
             let mut simplifier = Simplifier::default();
             let mut stack = words.to_vec();
@@ -242,8 +186,15 @@ impl Builder<'_> {
                 (simplified, reduced, simplifier.classified)
             })
             .collect();
+        let lengths: Vec<usize> = simplified.iter().map(|(_, reduced, _)| reduced.len()).collect();
+        if !self.pays(words.len(), lengths.iter().copied()) {
+            let mut tree = Subtree::leaf(words, place.level);
+            tree.classified = simplified.iter().map(|(_, _, classified)| classified).sum();
+            self.advance(place.level);
+            return Ok(tree);
+        }
         let left = budget - cost_of_cutting(words);
-        let all: usize = simplified.iter().map(|(_, reduced, _)| reduced.len()).sum();
+        let all: usize = lengths.iter().sum();
         let children: Vec<Result<Subtree, Cancelled>> = simplified
             .into_par_iter()
             .enumerate()
@@ -289,18 +240,16 @@ impl Builder<'_> {
         }
         self.exec.cancel.check()?;
         let left = budget - cost_of_cutting(words);
-        let index = tree.branches.len();
-        tree.branches.push([CellWord::OUTSIDE; 8]);
         let bottom = stack.len();
         let mut reduced = Vec::new();
-        let mut left_over: [Range<usize>; 8] = Default::default();
-        for (octant, range) in left_over.iter_mut().enumerate() {
+        let mut children = [CellWord::OUTSIDE; 8];
+        let mut ranges: [Range<usize>; 8] = Default::default();
+        for (octant, range) in ranges.iter_mut().enumerate() {
             reduced.clear();
             let cell = self.grown(place.child(octant));
             match simplifier.simplify(self.catalog, &stack[program.clone()], &cell, &mut reduced) {
                 Simplified::Constant(inside) => {
-                    self.advance(place.level + 1);
-                    tree.branches[index][octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
+                    children[octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
                 }
                 Simplified::Reduced => {
                     *range = stack.len()..stack.len() + reduced.len();
@@ -308,8 +257,20 @@ impl Builder<'_> {
                 }
             }
         }
+        if !self.pays(program.len(), ranges.iter().map(Range::len)) {
+            stack.truncate(bottom);
+            tree.depth = tree.depth.max(place.level);
+            self.advance(place.level);
+            return Ok(tree.intern(&stack[program]));
+        }
         let all = stack.len() - bottom;
-        for (octant, range) in left_over.into_iter().enumerate().filter(|(_, range)| !range.is_empty()) {
+        let index = tree.branches.len();
+        tree.branches.push(children);
+        for (octant, range) in ranges.into_iter().enumerate() {
+            if range.is_empty() {
+                self.advance(place.level + 1);
+                continue;
+            }
             let budget = share(left, range.len(), all);
             let word = self.cell(tree, simplifier, stack, range, place.child(octant), budget)?;
             tree.branches[index][octant] = word;
@@ -335,6 +296,22 @@ impl Builder<'_> {
 
     fn is_leaf(&self, words: &[u32], level: u32, budget: u64) -> bool {
         level >= self.depth || cost_of_cutting(words) > budget || self.surfaces_at_most(words)
+    }
+
+    /// Whether rays are expected to be faster in the children, whose programs have those lengths (0 where a child is all
+    /// inside or all outside), than in a leaf with a program of so many words.
+    ///
+    /// A ray that meets a cube meets each of its octants with a probability of 1/4 (Cauchy: the ratio of surfaces), and some
+    /// end before they get there.
+    fn pays(&self, words: usize, children: impl Iterator<Item = usize>) -> bool {
+        /// A step to the next cell takes as long as so many words of a program.
+        const STEP: f64 = 4.0;
+        /// The share of rays through a cell that get to a certain child.
+        const REACHED: f64 = 0.2;
+        /// With longer programs there is always something to gain, if not at once.
+        const LONG: usize = 64;
+        let cut = REACHED * children.map(|words| STEP + words as f64).sum::<f64>();
+        !self.by_cost || words > LONG || cut < STEP + words as f64
     }
 
     /// Whether a program has no more different surfaces than a leaf may.

@@ -2,6 +2,7 @@
 //! [Wyvill-Kunii-Shirai 1986; Comba-Persiano, §3].
 
 mod build;
+mod subtree;
 
 pub use build::{BuildOptions, build};
 
