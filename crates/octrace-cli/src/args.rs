@@ -324,7 +324,7 @@ pub struct TrialArgs {
     /// values from 1 to 24; else render's default]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::count(1..=64))]
     pub leaf_primitives: Vec<u32>,
-    /// How often cells are divided at most; `auto` is what the number of primitives leads to [default: for files and one
+    /// How often cells are divided at most; `auto` leaves it to the expected cost of rays [default: for files and one
     /// scene of each family, auto and depths about that; else auto]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub octree_depth: Vec<Depth>,

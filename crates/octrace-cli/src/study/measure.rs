@@ -28,8 +28,7 @@ pub fn study_scene(scene: &StudyScene, plan: &Plan, context: &Context<'_>) -> Re
     drop(canonical);
 
     let picture = Picture { rays: &all, sparse: &sparse, canonical_hits: &canonical_hits };
-    let reached = context.build(scene, &Config::default().options(scene.snap))?.stats().octree.map_or(0, |o| o.depth);
-    let configs = plan.configs(scene, reached);
+    let configs = plan.configs(scene, stats.literals);
     let (surveyed, checked) = survey(scene, &configs, &picture, plan.longest_build_s(), context)?;
     let measurable: Vec<(Config, Counts)> = surveyed.iter().filter_map(|one| Some((one.config, one.counts?))).collect();
     let to_time: Vec<Config> = measurable.iter().map(|(config, _)| *config).collect();

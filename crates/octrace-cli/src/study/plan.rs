@@ -11,7 +11,7 @@ use std::str::FromStr;
 /// An octree depth asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// What the tracer chooses by itself.
+    /// As the expected cost of rays has it.
     Auto,
     /// At most so many levels below the root.
     Levels(u32),
@@ -110,10 +110,13 @@ impl Plan {
         values
     }
 
-    /// Depths about the one that the default settings lead to.
-    fn usual_depths(&self, reached: u32) -> Vec<Depth> {
+    /// What the tracer chooses, and depths about the one at which the smallest cells are a few times as small as they would
+    /// be if they shared the surfaces evenly.
+    fn usual_depths(&self, surfaces: usize) -> Vec<Depth> {
+        let middle = (surfaces.max(1) as f64).log2() / 3.0 + 3.0;
+        let middle = middle.ceil() as u32;
         let about = if self.quick { 1 } else { 2 };
-        let levels = reached.saturating_sub(about)..=(reached + about).min(BuildOptions::MAX_DEPTH);
+        let levels = middle - about..=(middle + about).min(BuildOptions::MAX_DEPTH);
         std::iter::once(Depth::Auto).chain(levels.map(Depth::Levels)).collect()
     }
 
@@ -131,7 +134,7 @@ impl Plan {
 
     /// When building took longer than this, deeper octrees are not tried.
     pub fn longest_build_s(&self) -> f64 {
-        if self.quick { 0.5 } else { 4.0 }
+        if self.quick { 0.5 } else { 2.0 }
     }
 
     /// Depths of octrees whose memory is weighed.
@@ -140,8 +143,8 @@ impl Plan {
     }
 
     /// All ways to trace a scene. The default settings come first, whatever was asked for: all others are compared with
-    /// them. Shallower trees come before deeper ones. `reached` is the depth that the default settings lead to.
-    pub fn configs(&self, scene: &StudyScene, reached: u32) -> Vec<Config> {
+    /// them. Shallower trees come before deeper ones. The program names surfaces so often as `surfaces` says.
+    pub fn configs(&self, scene: &StudyScene, surfaces: usize) -> Vec<Config> {
         let usual = Config::default();
         let leaf_primitives = self
             .leaf_primitives
@@ -150,7 +153,7 @@ impl Plan {
         let depths = self
             .depths
             .clone()
-            .unwrap_or_else(|| if scene.sweep { self.usual_depths(reached) } else { vec![usual.depth] });
+            .unwrap_or_else(|| if scene.sweep { self.usual_depths(surfaces) } else { vec![usual.depth] });
         // Of settings that lead to the same octree the first ones are measured: those should be the usual ones.
         let is_asked = leaf_primitives.contains(&usual.leaf_primitives) && depths.contains(&usual.depth);
         let usual_elsewhere =
@@ -190,15 +193,21 @@ mod tests {
     fn the_default_is_always_there_and_first() {
         let scene = built_in("classic").unwrap();
         let configs =
-            Plan { leaf_primitives: Some(vec![2]), depths: Some(vec![Depth::Levels(3)]), ..plan() }.configs(&scene, 4);
+            Plan { leaf_primitives: Some(vec![2]), depths: Some(vec![Depth::Levels(3)]), ..plan() }.configs(&scene, 16);
         let asked = Config { traversal: TraversalKind::Samet, leaf_primitives: 2, depth: Depth::Levels(3) };
         assert_eq!(configs, [Config::default(), asked]);
     }
 
     #[test]
     fn only_swept_scenes_are_tried_with_everything() {
-        assert_eq!(plan().configs(&built_in("classic").unwrap(), 4).len(), 1 + 3 * 4);
-        assert_eq!(plan().configs(&built_in("chain-4").unwrap(), 4).len(), 2);
+        assert_eq!(plan().configs(&built_in("classic").unwrap(), 16).len(), 1 + 3 * 4);
+        assert_eq!(plan().configs(&built_in("chain-4").unwrap(), 5).len(), 2);
+    }
+
+    #[test]
+    fn depths_follow_the_number_of_surfaces() {
+        let levels = |surfaces| plan().usual_depths(surfaces).iter().filter_map(|d| d.levels()).collect::<Vec<_>>();
+        assert_eq!((levels(0), levels(16), levels(4096)), (vec![2, 3, 4], vec![4, 5, 6], vec![6, 7, 8]));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What the figures say, in sentences.
 
 use super::format::{number, range, whole};
-use super::look_up::{steps_of_both, traversals, with_traversal};
+use super::look_up::{best_fixed_depth, steps_of_both, traversals, values_of_p, with_traversal};
 use crate::study::plan::Config;
 use crate::study::results::{Advice, SceneReport, Study};
 use crate::study::scenes::Family;
@@ -11,7 +11,7 @@ use maud::{Markup, html};
 /// The findings, as a list.
 pub fn findings(study: &Study) -> Markup {
     let growth: Vec<Markup> = Family::ALL.into_iter().filter_map(|family| growth(study, family)).collect();
-    let others = [fastest(study), step(study), memory(study)].into_iter().flatten();
+    let others = [fastest(study), step(study), memory(study), stop_rule(study)].into_iter().flatten();
     // Whoever studies a file wants to know this first.
     let settings = settings(study);
     let sentences: Vec<Markup> = match growth.is_empty() {
@@ -132,6 +132,27 @@ fn memory(study: &Study) -> Option<Markup> {
         "With " (deepest) " levels and one surface a leaf, " code { "fujimoto" } "’s grid takes "
         strong { (number(ratio.median)) " times" } " the memory of " code { "bresenham" } "’s tree with the same smallest cell"
         (range(&ratio)) "."
+    })
+}
+
+/// What cutting cells by expected cost gains over the paper's fixed *p* and depth.
+fn stop_rule(study: &Study) -> Option<Markup> {
+    let fixed: Vec<f64> = study
+        .scenes
+        .iter()
+        .filter_map(|scene| {
+            let best = values_of_p([scene]).into_iter().filter_map(|p| best_fixed_depth(scene, p));
+            best.map(|(ratio, _)| ratio).min_by(f64::total_cmp)
+        })
+        .collect();
+    if fixed.is_empty() {
+        return None;
+    }
+    let ratio = Spread::of(fixed);
+    Some(html! {
+        "When to stop cutting: the best of the fixed values of p and depth that were tried on a scene takes "
+        strong { (number(ratio.median)) " times" } " as long" (range(&ratio)) " as the default settings, which cut cells by the \
+        expected cost of rays."
     })
 }
 

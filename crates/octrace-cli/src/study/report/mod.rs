@@ -107,8 +107,9 @@ fn settings(study: &Study) -> Markup {
             h2 id="settings" { "Which settings suit which scene" }
             @if tried.len() > 1 {
                 p {
-                    "Time ÷ that of the default settings, with the default traversal, for each " em { "p" } " at the depth that \
-                     suits it best (in brackets)."
+                    "Time ÷ that of the default settings, with the default traversal: where the tracer cuts cells as the \
+                     expected cost of rays has it, and at that fixed depth of those tried which suits best (the luckiest of \
+                     several, that is). In brackets the depth that the octree has."
                 }
                 (tables::leaf_primitives(&tried))
             }

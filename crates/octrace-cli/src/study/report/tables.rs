@@ -1,7 +1,7 @@
 //! The tables of the report.
 
 use super::format::{bytes, number, seconds, spread, spread_seconds, whole};
-use super::look_up::{figures, steps_of_both, traversals, with_traversal};
+use super::look_up::{best_fixed_depth, by_cost, figures, steps_of_both, traversals, values_of_p, with_traversal};
 use crate::study::plan::Config;
 use crate::study::results::{Figures, Run, SceneReport, Status, Study};
 use maud::{Markup, html};
@@ -92,34 +92,29 @@ fn step_row(scene: &SceneReport, names: &[&str]) -> Markup {
     }
 }
 
-/// How each *p* does at its best depth, scene by scene, with the default traversal.
+/// How each *p* does with the default traversal, scene by scene: with cells cut by expected cost, and at its best fixed
+/// depth.
 pub fn leaf_primitives(scenes: &[&SceneReport]) -> Markup {
-    let mut values: Vec<usize> = scenes.iter().flat_map(|scene| &scene.runs).map(|run| run.leaf_primitives).collect();
-    values.sort_unstable();
-    values.dedup();
+    let cell = |found: Option<(f64, u32)>| {
+        html! { td { @match found {
+            Some((ratio, depth)) => { (number(ratio)) " " small { "(" (depth) ")" } }
+            None => "–",
+        } } }
+    };
     html! {
         div.scroll { table {
-            thead { tr { th.text { "p" } @for scene in scenes { th { (scene.name) } } } }
-            tbody { @for &p in &values {
+            thead {
+                tr { th {} @for scene in scenes { th colspan="2" { (scene.name) } } }
+                tr { th.text { "p" } @for _ in scenes { th { "by cost" } th { "fixed" } } }
+            }
+            tbody { @for p in values_of_p(scenes.iter().copied()) {
                 tr.usual[p == Config::default().leaf_primitives] {
                     td.text { (p) }
-                    @for scene in scenes {
-                        td { @match best_depth(scene, p) {
-                            Some((ratio, depth)) => { (number(ratio)) " " small { "(" (depth) ")" } }
-                            None => "–",
-                        } }
-                    }
+                    @for scene in scenes { (cell(by_cost(scene, p))) (cell(best_fixed_depth(scene, p))) }
                 }
             } }
         } }
     }
-}
-
-/// The least time with this *p* and the default traversal, relative to the default settings, and the depth that was reached.
-fn best_depth(scene: &SceneReport, p: usize) -> Option<(f64, u32)> {
-    let is_meant = |run: &&Run| run.leaf_primitives == p && run.traversal == Config::default().traversal.name();
-    let figures = scene.runs.iter().filter(is_meant).filter_map(|run| figures(scene, run));
-    figures.map(|f| (f.ratio_to_default.median, f.octree.depth)).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// All settings of one scene.
