@@ -1,0 +1,223 @@
+//! A slice through the octree-CSG with some reduced programs: the paper's figures 5 and 6.
+
+use super::icons::legend;
+use super::programs;
+use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, number, palette, point};
+use super::slice::{Content, Slice, SliceCell};
+use octrace::Tracer;
+use std::collections::{BTreeMap, VecDeque};
+
+/// The side of the drawn root.
+pub const SIDE: f64 = 560.0;
+/// How finely the section is sampled.
+pub const SECTION_ROWS: usize = 1120;
+/// So many programs are shown.
+const CARDS: usize = 6;
+const CARD_LINES: usize = 6;
+const CARD_LEFT: f64 = MARGIN + SIDE + 62.0;
+
+/// Draws the slice; `names` are those of the primitives.
+pub fn draw(slice: &Slice, tracer: &Tracer, names: &[String]) -> String {
+    let note = format!(
+        "The octree in the plane z = {}. A cell at the surface keeps what is left of the tree there; the others need none.",
+        number(slice.z)
+    );
+    let mut sheet = Sheet::new(TOP + SIDE + 50.0, "The octree-CSG, cut open", &note);
+    let map = Map { left: MARGIN, bottom: TOP + SIDE };
+    for cell in &slice.cells {
+        map.fill(&mut sheet, cell.area(), content_color(&cell.content));
+    }
+    let section = slice.section(tracer, SECTION_ROWS);
+    sheet.path(&outline(&section, &map), Ink { opacity: 0.5, ..Ink::area(palette::SOLID) });
+    for cell in &slice.cells {
+        map.outline(&mut sheet, cell.area(), Ink::line("#8593a3", 0.7));
+    }
+    sheet.rect((MARGIN, TOP), (SIDE, SIDE), 0.0, Ink::line(palette::INK, 1.6));
+    cards(&mut sheet, slice, names, &map);
+
+    let y = TOP + SIDE + 28.0;
+    let border = |fill| Ink::both(fill, "#8593a3", 1.0);
+    let mut x = legend(&mut sheet, (MARGIN, y), border(palette::PAPER), "outside");
+    x = legend(&mut sheet, (x, y), border(palette::INSIDE), "inside");
+    x = legend(&mut sheet, (x, y), border(palette::LEAF), "leaf: a reduced tree");
+    legend(&mut sheet, (x, y), Ink { opacity: 0.5, ..Ink::area(palette::SOLID) }, "the solid's true section");
+    sheet.finish()
+}
+
+/// The colour of a cell.
+pub fn content_color(content: &Content) -> &'static str {
+    match content {
+        Content::Outside => palette::PAPER,
+        Content::Inside => palette::INSIDE,
+        Content::Leaf(_) => palette::LEAF,
+    }
+}
+
+/// Where the root, as a square with sides of 1, is drawn: y goes up.
+pub struct Map {
+    /// Its left side.
+    pub left: f64,
+    /// Its bottom.
+    pub bottom: f64,
+}
+
+impl Map {
+    /// A point of the root.
+    pub fn at(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.left + x * SIDE, self.bottom - y * SIDE)
+    }
+
+    /// A square filled with a colour, unless that is the paper's.
+    pub fn fill(&self, sheet: &mut Sheet, area: ([f64; 2], f64), color: &str) {
+        if color != palette::PAPER {
+            self.outline(sheet, area, Ink::area(color));
+        }
+    }
+
+    /// A square.
+    pub fn outline(&self, sheet: &mut Sheet, ([x, y], side): ([f64; 2], f64), ink: Ink) {
+        sheet.rect(self.at(x, y + side), (side * SIDE, side * SIDE), 0.0, ink);
+    }
+}
+
+/// The stretches of all rows, those that overlap from row to row joined to areas.
+pub fn outline(rows: &[Vec<(f64, f64)>], map: &Map) -> String {
+    let height = 1.0 / rows.len() as f64;
+    let mut data = String::new();
+    let mut start = 0;
+    let overlap = |a: &(f64, f64), b: &(f64, f64)| a.0 < b.1 && b.0 < a.1;
+    while start < rows.len() {
+        let joined = |pair: &[Vec<(f64, f64)>]| {
+            pair[0].len() == pair[1].len() && pair[0].iter().zip(&pair[1]).all(|(a, b)| overlap(a, b))
+        };
+        let more = rows[start..].windows(2).take_while(|pair| joined(pair)).count();
+        let end = start + more + 1;
+        for span in 0..rows[start].len() {
+            let side = |row: usize, y: f64, right: bool| {
+                let (a, b) = rows[row][span];
+                map.at(if right { b } else { a }, y * height)
+            };
+            let middle = |row: usize| row as f64 + 0.5;
+            let mut corners = vec![side(start, start as f64, true)];
+            corners.extend((start..end).map(|row| side(row, middle(row), true)));
+            corners.extend([side(end - 1, end as f64, true), side(end - 1, end as f64, false)]);
+            corners.extend((start..end).rev().map(|row| side(row, middle(row), false)));
+            corners.push(side(start, start as f64, false));
+            let corners: Vec<String> = straightened(&corners).into_iter().map(point).collect();
+            data += &format!("M{}Z", corners.join("L"));
+        }
+        start = end;
+    }
+    data
+}
+
+/// The corners without those that are hardly off the straight line between others.
+fn straightened(corners: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    const OFF: f64 = 0.08;
+    let mut kept = vec![corners[0]];
+    let (mut from, mut to) = (0, 1);
+    while to < corners.len() {
+        let (a, b) = (corners[from], corners[to]);
+        let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+        let length = (dx * dx + dy * dy).sqrt();
+        let off = |p: &(f64, f64)| ((p.0 - a.0) * dy - (p.1 - a.1) * dx).abs() > OFF * length;
+        if to > from + 1 && corners[from + 1..to].iter().any(off) {
+            from = to - 1;
+            kept.push(corners[from]);
+        } else {
+            to += 1;
+        }
+    }
+    kept.push(corners[corners.len() - 1]);
+    kept
+}
+
+/// Some programs beside the slice, each with a line to its cell.
+fn cards(sheet: &mut Sheet, slice: &Slice, names: &[String], map: &Map) {
+    let mut chosen = chosen(slice);
+    chosen.sort_by(|a, b| middle(b)[1].total_cmp(&middle(a)[1]));
+    let texts: Vec<Vec<programs::Row>> = chosen
+        .iter()
+        .map(|cell| match &cell.content {
+            Content::Leaf(words) => programs::rows(slice.catalog, words, names, CARD_LINES),
+            _ => Vec::new(),
+        })
+        .collect();
+    let heights: Vec<f64> = texts.iter().map(|rows| programs::LINE * rows.len() as f64 + 14.0).collect();
+    let spare = (SIDE - heights.iter().sum::<f64>()).max(0.0);
+    let gap = (spare / (heights.len() as f64 - 1.0).max(1.0)).min(40.0);
+    let mut top = TOP + (spare - gap * (heights.len() as f64 - 1.0)).max(0.0) / 2.0;
+    for (number, ((cell, rows), height)) in chosen.iter().zip(&texts).zip(&heights).enumerate() {
+        let letter = char::from(b'a' + number as u8).to_string();
+        let [x, y] = middle(cell);
+        let (at, card) = (map.at(x, y), (CARD_LEFT, top + height / 2.0));
+        map.outline(sheet, cell.area(), Ink::line(palette::RED, 2.0));
+        let half = cell.area().1 * SIDE / 2.0;
+        // Level to the side of the slice, then to the card.
+        let (edge, ink) = ((MARGIN + SIDE + 10.0, at.1), Ink::line(palette::RED, 1.1));
+        sheet.line((at.0 + half, at.1), edge, ink);
+        sheet.line(edge, card, ink);
+        sheet.rect(
+            (CARD_LEFT, top),
+            (WIDTH - MARGIN - CARD_LEFT, *height),
+            5.0,
+            Ink::both(palette::PANEL, palette::FAINT, 1.2),
+        );
+        sheet.circle(card, 10.0, Ink::area(palette::RED));
+        sheet.label((card.0, card.1 + 4.5), Label::new(&letter, 13.0).colored(palette::PAPER).bold());
+        let left = CARD_LEFT + 22.0;
+        programs::draw(sheet, (left, top + 16.0), WIDTH - MARGIN - 8.0 - left, rows);
+        top += height + gap;
+    }
+}
+
+fn middle(cell: &SliceCell) -> [f64; 2] {
+    let (corner, side) = cell.area();
+    corner.map(|place| place + side / 2.0)
+}
+
+/// Cells with different programs, long and short ones in turn, not too close to each other.
+fn chosen<'a>(slice: &'a Slice<'_>) -> Vec<&'a SliceCell> {
+    let leaves = slice.cells.iter().filter_map(|cell| match &cell.content {
+        Content::Leaf(words) => Some((words, cell)),
+        _ => None,
+    });
+    let mut cells_of: BTreeMap<(usize, &Vec<u32>), Vec<&SliceCell>> = BTreeMap::new();
+    for (words, cell) in leaves {
+        cells_of.entry((words.len(), words)).or_default().push(cell);
+    }
+    for cells in cells_of.values_mut() {
+        // Large cells are easy to see, those on the right need the shortest lines.
+        cells.sort_by(|a, b| a.level.cmp(&b.level).then(middle(b)[0].total_cmp(&middle(a)[0])));
+    }
+    let mut programs: VecDeque<Vec<&SliceCell>> = cells_of.into_values().collect();
+    let mut chosen: Vec<&SliceCell> = Vec::new();
+    let mut long = true;
+    while chosen.len() < CARDS {
+        let Some(cells) = (if long { programs.pop_back() } else { programs.pop_front() }) else { break };
+        let far = |cell: &SliceCell, other: &SliceCell| {
+            let ([x, y], [u, v]) = (middle(cell), middle(other));
+            // Lines of cells at one height would run into each other.
+            (x - u) * (x - u) + (y - v) * (y - v) > 0.14 * 0.14 && (y - v).abs() > 0.02
+        };
+        if let Some(cell) = cells.into_iter().find(|cell| chosen.iter().all(|other| far(cell, other))) {
+            chosen.push(cell);
+            long = !long;
+        }
+    }
+    chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_joined_to_areas() {
+        let map = Map { left: 0.0, bottom: SIDE };
+        let rows = vec![vec![(0.25, 0.5)], vec![(0.25, 0.5)], vec![], vec![(0.0, 0.5), (0.75, 1.0)]];
+        let data = outline(&rows, &map);
+        assert_eq!(data.matches('M').count(), 3, "{data}");
+        assert!(data.starts_with("M280 560L280 280L140 280L140 560Z"), "{data}");
+    }
+}
