@@ -2,7 +2,7 @@
 
 use super::icons;
 use super::layout::{Block, layout};
-use super::sheet::{Anchor, Ink, Label, Sheet, TOP, WIDTH, cut_to, palette};
+use super::sheet::{Anchor, Ink, Label, Sheet, TOP, WIDTH, cut_to, number, palette};
 use super::sketch::{Kind, SketchNode, sketch};
 use octrace::{BoolOp, Solid};
 
@@ -28,42 +28,47 @@ pub fn draw(solid: &Solid) -> String {
     let note = "Primitives, each in its place, joined by operators. What a dashed line leads to is taken away.";
     let mut sheet = Sheet::new(height, "The CSG tree", note);
     for (index, node) in nodes.iter().enumerate() {
-        for (operand, &child) in node.children.iter().enumerate() {
-            let cut = node.kind == Kind::Operator(BoolOp::Difference) && operand > 0;
-            let (color, dashes) = if cut { (palette::RED, "5 4") } else { (palette::MUTED, "") };
-            sheet.line(place(index), place(child), Ink { dashes, ..Ink::line(color, 1.5) });
-        }
+        let ends = node.children.iter().map(|&child| {
+            let (x, y) = place(child);
+            (x, y - if nodes[child].children.is_empty() { 22.0 } else { 18.0 })
+        });
+        draw_branches(&mut sheet, place(index), &ends.collect::<Vec<_>>(), &node.kind);
     }
     for (index, node) in nodes.iter().enumerate() {
-        // An operator's name is on the side from which no line comes.
-        let parent = nodes.iter().position(|parent| parent.children.contains(&index));
-        let name_on = match parent {
-            Some(parent) if place(parent).0 > place(index).0 => Anchor::End,
-            _ => Anchor::Start,
-        };
-        draw_node(&mut sheet, place(index), node, name_on);
+        draw_node(&mut sheet, place(index), node);
     }
     sheet.finish()
 }
 
-fn draw_node(sheet: &mut Sheet, (x, y): (f64, f64), node: &SketchNode, name_on: Anchor) {
+/// The lines from a node to its operands: down, across once, and down to each.
+fn draw_branches(sheet: &mut Sheet, (x, y): (f64, f64), ends: &[(f64, f64)], kind: &Kind) {
+    let ([first, others @ ..], Some(last)) = (ends, ends.last()) else { return };
+    let bend = y + 48.0;
+    let across = |to: f64| format!("M{} {} H{}", number(x), number(bend), number(to));
+    let down = |&(x, y): &(f64, f64)| format!("M{} {} V{}", number(x), number(bend), number(y));
+    let (to_first, to_others) = (
+        format!("{} {}", across(first.0), down(first)),
+        format!("{} {}", across(last.0), others.iter().map(down).collect::<Vec<_>>().join(" ")),
+    );
+    let solid = Ink::line(palette::MUTED, 1.5);
+    let cut = Ink { dashes: "5 4", ..Ink::line(palette::RED, 1.5) };
+    sheet.path(&to_others, if *kind == Kind::Operator(BoolOp::Difference) { cut } else { solid });
+    sheet.path(&to_first, solid);
+    sheet.line((x, y), (x, bend), solid);
+}
+
+fn draw_node(sheet: &mut Sheet, (x, y): (f64, f64), node: &SketchNode) {
     let caption = |sheet: &mut Sheet, dy: f64, text: &str, color| {
         sheet.label((x, y + dy), Label::new(&cut_to(text, 12.5, BREADTH), 12.5).colored(color));
-    };
-    // What is behind a node shall not shine through.
-    let clear = |sheet: &mut Sheet, half: f64| {
-        sheet.rect((x - half, y - half), (2.0 * half, 2.0 * half + 22.0), 6.0, Ink::area(palette::PAPER));
     };
     match node.kind {
         Kind::Operator(op) => {
             icons::operator(sheet, (x, y), 18.0, op);
             let name = node.name();
             let label = Label::new(&name, 12.5).colored(icons::operator_color(op));
-            let beside = if name_on == Anchor::Start { x + 25.0 } else { x - 25.0 };
-            sheet.label((beside, y - 8.0), label.held(name_on));
+            sheet.label((x + 24.0, y + 4.5), label.held(Anchor::Start));
         }
         Kind::Primitive(_) => {
-            clear(sheet, 22.0);
             if let Some(primitive) = node.primitive() {
                 icons::primitive(sheet, (x, y), &primitive);
             }
@@ -71,15 +76,13 @@ fn draw_node(sheet: &mut Sheet, (x, y): (f64, f64), node: &SketchNode, name_on: 
         }
         Kind::Folded(op, primitives) => {
             icons::operator(sheet, (x, y), 18.0, op);
-            caption(sheet, 36.0, &format!("… of {primitives}"), palette::MUTED);
+            caption(sheet, 36.0, &format!("… {primitives} primitives"), palette::MUTED);
         }
         Kind::More(_, primitives) => {
-            clear(sheet, 20.0);
             caption(sheet, 4.0, &node.name(), palette::INK);
             caption(sheet, 20.0, &format!("({primitives} primitives)"), palette::MUTED);
         }
         Kind::Nothing => {
-            clear(sheet, 16.0);
             caption(sheet, 6.0, "empty", palette::MUTED);
         }
     }

@@ -68,3 +68,6 @@ pub fn draw(subject: &Subject, exec: &Exec) -> Result<[String; 5], Failure> {
         quadtree_walk::draw(&slice, &whole),
     ])
 }
+
+#[cfg(test)]
+mod tests;

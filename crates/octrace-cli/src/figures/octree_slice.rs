@@ -190,6 +190,10 @@ fn chosen<'a>(slice: &'a Slice<'_>) -> Vec<&'a SliceCell> {
         // Large cells are easy to see, those on the right need the shortest lines.
         cells.sort_by(|a, b| a.level.cmp(&b.level).then(middle(b)[0].total_cmp(&middle(a)[0])));
     }
+    // Programs that a card does not hold say little: only where there are no others.
+    if cells_of.keys().any(|(words, _)| *words <= CARD_LINES) {
+        cells_of.retain(|(words, _), _| *words <= CARD_LINES);
+    }
     let mut programs: VecDeque<Vec<&SliceCell>> = cells_of.into_values().collect();
     let mut chosen: Vec<&SliceCell> = Vec::new();
     let mut long = true;
