@@ -59,7 +59,7 @@ fn draw_branches(sheet: &mut Sheet, (x, y): (f64, f64), ends: &[(f64, f64)], kin
 
 fn draw_node(sheet: &mut Sheet, (x, y): (f64, f64), node: &SketchNode) {
     let caption = |sheet: &mut Sheet, dy: f64, text: &str, color| {
-        sheet.label((x, y + dy), Label::new(&cut_to(text, 12.5, BREADTH), 12.5).colored(color));
+        sheet.label((x, y + dy), Label::new(&cut_to(text, 12.0, BREADTH + GAP), 12.0).colored(color));
     };
     match node.kind {
         Kind::Operator(op) => {
@@ -78,9 +78,11 @@ fn draw_node(sheet: &mut Sheet, (x, y): (f64, f64), node: &SketchNode) {
             icons::operator(sheet, (x, y), 18.0, op);
             caption(sheet, 36.0, &format!("… {primitives} primitives"), palette::MUTED);
         }
-        Kind::More(_, primitives) => {
+        Kind::More(operands, primitives) => {
             caption(sheet, 4.0, &node.name(), palette::INK);
-            caption(sheet, 20.0, &format!("({primitives} primitives)"), palette::MUTED);
+            if primitives > operands {
+                caption(sheet, 20.0, &format!("{primitives} primitives"), palette::MUTED);
+            }
         }
         Kind::Nothing => {
             caption(sheet, 6.0, "empty", palette::MUTED);

@@ -2,7 +2,7 @@
 
 use super::icons::legend;
 use super::programs;
-use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, number, palette, point};
+use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, palette, point, value};
 use super::slice::{Content, Slice, SliceCell};
 use octrace::Tracer;
 use std::collections::{BTreeMap, VecDeque};
@@ -20,7 +20,7 @@ const CARD_LEFT: f64 = MARGIN + SIDE + 62.0;
 pub fn draw(slice: &Slice, tracer: &Tracer, names: &[String]) -> String {
     let note = format!(
         "The octree in the plane z = {}. A cell at the surface keeps what is left of the tree there; the others need none.",
-        number(slice.z)
+        value(slice.z)
     );
     let mut sheet = Sheet::new(TOP + SIDE + 50.0, "The octree-CSG, cut open", &note);
     let map = Map { left: MARGIN, bottom: TOP + SIDE };

@@ -1,7 +1,7 @@
 //! Reduced programs, the few words that are left of the CSG tree in a cell, as small trees of text.
 
 use super::icons;
-use super::sheet::{Anchor, Ink, Label, Sheet, cut_to, number, palette};
+use super::sheet::{Anchor, Ink, Label, Sheet, cut_to, number, palette, value};
 use octrace::BoolOp;
 use octrace::compile::{Catalog, Word, node_end};
 use octrace::surface::{Plane, Surface};
@@ -79,8 +79,7 @@ fn axis_plane(plane: &Plane, negated: bool) -> Option<String> {
     let axis = (0..3).find(|&axis| plane.normal[axis].abs() == 1.0)?;
     let below = (plane.normal[axis] > 0.0) != negated;
     let place = plane.offset * plane.normal[axis];
-    let text = if place.abs() < 1e6 { number(place) } else { format!("{place:.2e}") };
-    Some(format!("{} {} {text}", ["x", "y", "z"][axis], if below { "<" } else { ">" }))
+    Some(format!("{} {} {}", ["x", "y", "z"][axis], if below { "<" } else { ">" }, value(place)))
 }
 
 /// Draws the lines; `(x, y)` is the left end of the first one's middle.

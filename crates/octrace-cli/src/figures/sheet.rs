@@ -237,6 +237,17 @@ pub fn number(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
+/// A number of the scene, for people: about four digits of it.
+pub fn value(value: f64) -> String {
+    match value.abs() {
+        size if size != 0.0 && !(0.01..1e6).contains(&size) => format!("{value:.3e}"),
+        _ => {
+            let text = format!("{value:.3}");
+            text.trim_end_matches('0').trim_end_matches('.').into()
+        }
+    }
+}
+
 /// A point in a path.
 pub fn point((x, y): (f64, f64)) -> String {
     format!("{} {}", number(x), number(y))
@@ -278,6 +289,8 @@ mod tests {
     fn numbers_are_short_and_never_minus_zero() {
         let texts = [1.0, -0.001, 2.5, 0.126, 100.0].map(number);
         assert_eq!(texts, ["1", "0", "2.5", "0.13", "100"]);
+        let values = [0.0, -0.75, 12.0, 123.4567, 1.5e-20, -2e26].map(value);
+        assert_eq!(values, ["0", "-0.75", "12", "123.457", "1.500e-20", "-2.000e26"]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::icons;
-use super::sheet::{Anchor, Ink, Label, MARGIN, Sheet, TOP, WIDTH, cut_to, number, palette};
+use super::sheet::{Anchor, Ink, Label, MARGIN, Sheet, TOP, WIDTH, cut_to, number, palette, value};
 use super::sketch::{Kind, SketchNode, sketch};
 use octrace::exec::Exec;
 use octrace::{Accel, Ray, Scene, Span, Spans, Tracer, TracerOptions};
@@ -11,7 +11,7 @@ use octrace::{Accel, Ray, Scene, Span, Spans, Tracer, TracerOptions};
 const TIPS: usize = 10;
 const ROW: f64 = 30.0;
 /// The bars are between these.
-const LEFT: f64 = 268.0;
+const LEFT: f64 = 280.0;
 const RIGHT: f64 = WIDTH - MARGIN - 8.0;
 
 /// A node of the tree with its spans.
@@ -60,7 +60,7 @@ pub fn draw(scene: &Scene, ray: &Ray, exec: &Exec) -> Result<String, Failure> {
     let words = match ends.clone().find(|hit| hit.t > 0.0) {
         Some(hit) => {
             sheet.circle((axis.x(hit.t), end), 5.5, Ink::both(palette::PAPER, palette::RED, 2.4));
-            format!("The first end after the eye is the visible point: t = {:.3}.", hit.t)
+            format!("The first end after the eye is the visible point: t = {}.", value(hit.t))
         }
         None => "The ray meets nothing.".to_owned(),
     };
@@ -100,7 +100,7 @@ fn draw_row(sheet: &mut Sheet, (x, y): (f64, f64), row: &Row, axis: &Axis) {
             palette::SOLID
         }
     };
-    let name = cut_to(&row.node.name(), 12.5, LEFT - 26.0 - x);
+    let name = cut_to(&row.node.name(), 12.5, LEFT - 22.0 - x);
     sheet.label((x + 16.0, y + 4.5), Label::new(&name, 12.5).held(Anchor::Start).colored(palette::INK));
     sheet.line((LEFT, y), (RIGHT, y), Ink::line(palette::FAINT, 1.0));
     for span in &row.spans {
