@@ -10,6 +10,7 @@ mod octree_slice;
 mod programs;
 mod quadtree_walk;
 mod ray_tree;
+mod section;
 mod sheet;
 mod sketch;
 mod slice;

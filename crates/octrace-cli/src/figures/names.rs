@@ -1,5 +1,4 @@
-//! What the primitives of a scene are called in figures: their kind, and their number in source order, as in
-//! `octrace inspect`.
+//! What the primitives of a scene are called in figures: their kind, and their number in source order.
 
 use crate::tree;
 use octrace::model::Node;

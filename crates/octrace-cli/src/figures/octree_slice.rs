@@ -2,7 +2,8 @@
 
 use super::icons::legend;
 use super::programs;
-use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, palette, point, value};
+use super::section::outline;
+use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, palette, value};
 use super::slice::{Content, Slice, SliceCell};
 use octrace::Tracer;
 use std::collections::{BTreeMap, VecDeque};
@@ -78,58 +79,6 @@ impl Map {
     pub fn outline(&self, sheet: &mut Sheet, ([x, y], side): ([f64; 2], f64), ink: Ink) {
         sheet.rect(self.at(x, y + side), (side * SIDE, side * SIDE), 0.0, ink);
     }
-}
-
-/// The stretches of all rows, those that overlap from row to row joined to areas.
-pub fn outline(rows: &[Vec<(f64, f64)>], map: &Map) -> String {
-    let height = 1.0 / rows.len() as f64;
-    let mut data = String::new();
-    let mut start = 0;
-    let overlap = |a: &(f64, f64), b: &(f64, f64)| a.0 < b.1 && b.0 < a.1;
-    while start < rows.len() {
-        let joined = |pair: &[Vec<(f64, f64)>]| {
-            pair[0].len() == pair[1].len() && pair[0].iter().zip(&pair[1]).all(|(a, b)| overlap(a, b))
-        };
-        let more = rows[start..].windows(2).take_while(|pair| joined(pair)).count();
-        let end = start + more + 1;
-        for span in 0..rows[start].len() {
-            let side = |row: usize, y: f64, right: bool| {
-                let (a, b) = rows[row][span];
-                map.at(if right { b } else { a }, y * height)
-            };
-            let middle = |row: usize| row as f64 + 0.5;
-            let mut corners = vec![side(start, start as f64, true)];
-            corners.extend((start..end).map(|row| side(row, middle(row), true)));
-            corners.extend([side(end - 1, end as f64, true), side(end - 1, end as f64, false)]);
-            corners.extend((start..end).rev().map(|row| side(row, middle(row), false)));
-            corners.push(side(start, start as f64, false));
-            let corners: Vec<String> = straightened(&corners).into_iter().map(point).collect();
-            data += &format!("M{}Z", corners.join("L"));
-        }
-        start = end;
-    }
-    data
-}
-
-/// The corners without those that are hardly off the straight line between others.
-fn straightened(corners: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    const OFF: f64 = 0.08;
-    let mut kept = vec![corners[0]];
-    let (mut from, mut to) = (0, 1);
-    while to < corners.len() {
-        let (a, b) = (corners[from], corners[to]);
-        let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-        let length = (dx * dx + dy * dy).sqrt();
-        let off = |p: &(f64, f64)| ((p.0 - a.0) * dy - (p.1 - a.1) * dx).abs() > OFF * length;
-        if to > from + 1 && corners[from + 1..to].iter().any(off) {
-            from = to - 1;
-            kept.push(corners[from]);
-        } else {
-            to += 1;
-        }
-    }
-    kept.push(corners[corners.len() - 1]);
-    kept
 }
 
 /// Some programs beside the slice, each with a line to its cell.
@@ -210,18 +159,4 @@ fn chosen<'a>(slice: &'a Slice<'_>) -> Vec<&'a SliceCell> {
         }
     }
     chosen
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_are_joined_to_areas() {
-        let map = Map { left: 0.0, bottom: SIDE };
-        let rows = vec![vec![(0.25, 0.5)], vec![(0.25, 0.5)], vec![], vec![(0.0, 0.5), (0.75, 1.0)]];
-        let data = outline(&rows, &map);
-        assert_eq!(data.matches('M').count(), 3, "{data}");
-        assert!(data.starts_with("M280 560L280 280L140 280L140 560Z"), "{data}");
-    }
 }

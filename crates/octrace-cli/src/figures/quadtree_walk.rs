@@ -1,6 +1,7 @@
 //! Multi-resolution Bresenham along a line through a quadtree, step by step: the paper's figure 7.
 
-use super::octree_slice::{Map, SECTION_ROWS, SIDE, content_color, outline};
+use super::octree_slice::{Map, SECTION_ROWS, SIDE, content_color};
+use super::section::outline;
 use super::sheet::{Anchor, Ink, Label, MARGIN, Sheet, TOP, WIDTH, palette};
 use super::slice::Slice;
 use octrace::Tracer;

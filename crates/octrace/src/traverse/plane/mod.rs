@@ -1,7 +1,7 @@
 //! Multi-resolution Bresenham in the plane, as the paper gives it [Comba-Persiano, §4.2]: Bresenham's line on the squares of
 //! a quadtree, in integers.
 //!
-//! Nothing in space is traced with it: [`super::bresenham`] does that. This is the form of the algorithm to understand it
+//! Nothing in space is traced with it: `traverse::bresenham` does that. This is the form of the algorithm to understand it
 //! by, and to draw. The tree lies on a lattice; a [`Line`] starts at a lattice point and has an integer direction. With the
 //! slope `dy/dx` in `[0, 1]` and the line at `(a, b)` relative to the corner of a square with side `s`, the paper keeps
 //!

@@ -1,4 +1,7 @@
 //! The walk: errors, moves, refinement and integration.
+//!
+//! The paper adds the increment of a horizontal move last, when the square has its final size. Here it is added at once,
+//! and refinement takes half of it back: so that after every step the numbers are those of the square that it led to.
 
 use super::quadtree::{Quadtree, Square};
 use std::cmp::Ordering;
@@ -258,7 +261,7 @@ impl<'a> Walker<'a> {
             self.square.corner[1] += side;
         }
         self.square = Square { level: self.square.level + 1, side, ..self.square };
-        let quarter = usize::from(right) * RIGHT | usize::from(upper) * UPPER;
+        let quarter = (if right { RIGHT } else { 0 }) | (if upper { UPPER } else { 0 });
         self.node = first + self.frame.out_of(quarter) as u32;
     }
 
