@@ -43,10 +43,11 @@ fn words(figure: &str) -> Vec<Words> {
             Event::Tag("text", _, _) => open = None,
             Event::Text(text) => {
                 let Some(attributes) = &open else { continue };
+                let text = text.trim();
                 let number = |name: &str| attributes[name].parse::<f64>().expect("a number");
                 let (x, base, size) = (number("x"), number("y"), number("font-size"));
                 // What is sure to be covered; `text_width` is what may be.
-                let width = 0.8 * text_width(text, size);
+                let width = 0.9 * text_width(text, size);
                 let anchor = attributes.get("text-anchor").map_or("start", |anchor| &**anchor);
                 let left = match anchor {
                     "middle" => x - width / 2.0,
