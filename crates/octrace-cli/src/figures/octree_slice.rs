@@ -6,7 +6,7 @@ use super::section::outline;
 use super::sheet::{Ink, Label, MARGIN, Sheet, TOP, WIDTH, palette, value};
 use super::slice::{Content, Slice, SliceCell};
 use octrace::Tracer;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The side of the drawn root.
 pub const SIDE: f64 = 560.0;
@@ -15,6 +15,8 @@ pub const SECTION_ROWS: usize = 1120;
 /// So many programs are shown.
 const CARDS: usize = 6;
 const CARD_LINES: usize = 6;
+/// The least room between two of them.
+const CARD_GAP: f64 = 8.0;
 const CARD_LEFT: f64 = MARGIN + SIDE + 62.0;
 
 /// Draws the slice; `names` are those of the primitives.
@@ -92,7 +94,7 @@ fn cards(sheet: &mut Sheet, slice: &Slice, names: &[String], map: &Map) {
             _ => Vec::new(),
         })
         .collect();
-    let heights: Vec<f64> = texts.iter().map(|rows| programs::LINE * rows.len() as f64 + 14.0).collect();
+    let heights: Vec<f64> = texts.iter().map(|rows| card_height(rows.len())).collect();
     let spare = (SIDE - heights.iter().sum::<f64>()).max(0.0);
     let gap = (spare / (heights.len() as f64 - 1.0).max(1.0)).min(40.0);
     let mut top = TOP + (spare - gap * (heights.len() as f64 - 1.0)).max(0.0) / 2.0;
@@ -120,43 +122,50 @@ fn cards(sheet: &mut Sheet, slice: &Slice, names: &[String], map: &Map) {
     }
 }
 
+/// The height of a card for a text of so many lines, of which not all may be shown.
+fn card_height(lines: usize) -> f64 {
+    programs::LINE * lines.min(CARD_LINES) as f64 + 14.0
+}
+
 fn middle(cell: &SliceCell) -> [f64; 2] {
     let (corner, side) = cell.area();
     corner.map(|place| place + side / 2.0)
 }
 
-/// Cells with different programs, long and short ones in turn, not too close to each other.
+/// Cells with different programs, not too close to each other, that show as many primitives as possible.
 fn chosen<'a>(slice: &'a Slice<'_>) -> Vec<&'a SliceCell> {
-    let leaves = slice.cells.iter().filter_map(|cell| match &cell.content {
-        Content::Leaf(words) => Some((words, cell)),
-        _ => None,
-    });
-    let mut cells_of: BTreeMap<(usize, &Vec<u32>), Vec<&SliceCell>> = BTreeMap::new();
-    for (words, cell) in leaves {
-        cells_of.entry((words.len(), words)).or_default().push(cell);
+    let mut cells_of: BTreeMap<&[u32], Vec<&SliceCell>> = BTreeMap::new();
+    for cell in &slice.cells {
+        if let Content::Leaf(words) = &cell.content {
+            cells_of.entry(words).or_default().push(cell);
+        }
+    }
+    // Programs that a card does not hold say little: only where there are no others.
+    if cells_of.keys().any(|words| words.len() <= CARD_LINES) {
+        cells_of.retain(|words, _| words.len() <= CARD_LINES);
     }
     for cells in cells_of.values_mut() {
         // Large cells are easy to see, those on the right need the shortest lines.
         cells.sort_by(|a, b| a.level.cmp(&b.level).then(middle(b)[0].total_cmp(&middle(a)[0])));
     }
-    // Programs that a card does not hold say little: only where there are no others.
-    if cells_of.keys().any(|(words, _)| *words <= CARD_LINES) {
-        cells_of.retain(|(words, _), _| *words <= CARD_LINES);
-    }
-    let mut programs: VecDeque<Vec<&SliceCell>> = cells_of.into_values().collect();
-    let mut chosen: Vec<&SliceCell> = Vec::new();
-    let mut long = true;
+    let far = |cell: &SliceCell, other: &SliceCell| {
+        let ([x, y], [u, v]) = (middle(cell), middle(other));
+        // Lines of cells at one height would run into each other.
+        (x - u) * (x - u) + (y - v) * (y - v) > 0.14 * 0.14 && (y - v).abs() > 0.02
+    };
+    let (mut chosen, mut shown): (Vec<&SliceCell>, BTreeSet<u32>) = (Vec::new(), BTreeSet::new());
+    let mut room = SIDE;
     while chosen.len() < CARDS {
-        let Some(cells) = (if long { programs.pop_back() } else { programs.pop_front() }) else { break };
-        let far = |cell: &SliceCell, other: &SliceCell| {
-            let ([x, y], [u, v]) = (middle(cell), middle(other));
-            // Lines of cells at one height would run into each other.
-            (x - u) * (x - u) + (y - v) * (y - v) > 0.14 * 0.14 && (y - v).abs() > 0.02
-        };
-        if let Some(cell) = cells.into_iter().find(|cell| chosen.iter().all(|other| far(cell, other))) {
-            chosen.push(cell);
-            long = !long;
-        }
+        let new = |words: &[u32]| programs::primitives(slice.catalog, words).difference(&shown).count();
+        let fits =
+            |cells: &[&'a SliceCell]| cells.iter().copied().find(|cell| chosen.iter().all(|other| far(cell, other)));
+        let short = cells_of.iter().filter(|(words, _)| card_height(words.len()) + CARD_GAP <= room);
+        let candidates = short.filter_map(|(words, cells)| Some((*words, fits(cells)?)));
+        let Some((words, cell)) = candidates.max_by_key(|(words, _)| (new(words), words.len())) else { break };
+        shown.extend(programs::primitives(slice.catalog, words));
+        chosen.push(cell);
+        room -= card_height(words.len()) + CARD_GAP;
+        cells_of.remove(words);
     }
     chosen
 }

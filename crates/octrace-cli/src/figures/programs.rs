@@ -5,6 +5,7 @@ use super::sheet::{Anchor, Ink, Label, Sheet, cut_to, number, palette, value};
 use octrace::BoolOp;
 use octrace::compile::{Catalog, Word, node_end};
 use octrace::surface::{Plane, Surface};
+use std::collections::BTreeSet;
 
 /// A line of the text.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,26 +62,51 @@ pub fn rows(catalog: &Catalog, words: &[u32], names: &[String], most: usize) -> 
     rows
 }
 
+/// The numbers of the primitives that a program mentions.
+pub fn primitives(catalog: &Catalog, words: &[u32]) -> BTreeSet<u32> {
+    let leaf = |&word: &u32| match Word::decode(word) {
+        Word::Literal { index, .. } => Some(catalog.literals[index as usize].leaf),
+        Word::And { .. } | Word::Or { .. } => None,
+    };
+    words.iter().filter_map(leaf).collect()
+}
+
 fn literal(catalog: &Catalog, index: u32, negated: bool, names: &[String]) -> String {
     let literal = catalog.literals[index as usize];
     let primitive = names.get(literal.leaf as usize).map_or("", String::as_str);
-    let side = if negated { "outside" } else { "inside" };
     match &catalog.surfaces[literal.surface as usize] {
-        Surface::Plane(plane) => match axis_plane(plane, negated) {
-            Some(text) => format!("{text}  ({primitive})"),
-            None => format!("{side} a face of {primitive}"),
-        },
-        _ => format!("{side} {primitive}"),
+        Surface::Plane(plane) => format!("{primitive}: {}", half_space(plane, negated)),
+        _ if negated => format!("outside {primitive}"),
+        _ => format!("inside {primitive}"),
     }
 }
 
-/// The half-space of a plane across an axis.
-fn axis_plane(plane: &Plane, negated: bool) -> Option<String> {
-    let axis = (0..3).find(|&axis| plane.normal[axis].abs() == 1.0)?;
-    let below = (plane.normal[axis] > 0.0) != negated;
-    let place = plane.offset * plane.normal[axis];
-    Some(format!("{} {} {}", ["x", "y", "z"][axis], if below { "<" } else { ">" }, value(place)))
+/// A half-space as an inequality, such as `x < 1`.
+fn half_space(plane: &Plane, negated: bool) -> String {
+    if let Some(axis) = (0..3).find(|&axis| plane.normal[axis].abs() == 1.0) {
+        let below = (plane.normal[axis] > 0.0) != negated;
+        let place = plane.offset * plane.normal[axis];
+        return format!("{} {} {}", AXES[axis], if below { "<" } else { ">" }, value(place));
+    }
+    let mut sum = String::new();
+    for (axis, name) in AXES.iter().enumerate() {
+        let factor = number(plane.normal[axis].abs());
+        if factor == "0" {
+            continue;
+        }
+        sum += match (plane.normal[axis] < 0.0, sum.is_empty()) {
+            (true, true) => "-",
+            (true, false) => " - ",
+            (false, true) => "",
+            (false, false) => " + ",
+        };
+        sum += if factor == "1" { "" } else { &factor };
+        sum += name;
+    }
+    format!("{sum} {} {}", if negated { ">" } else { "<" }, value(plane.offset))
 }
+
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Draws the lines; `(x, y)` is the left end of the first one's middle.
 pub fn draw(sheet: &mut Sheet, (x, y): (f64, f64), width: f64, rows: &[Row]) {
@@ -113,8 +139,8 @@ pub fn draw(sheet: &mut Sheet, (x, y): (f64, f64), width: f64, rows: &[Row]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octrace::Solid;
     use octrace::compile::{Constant, compile};
+    use octrace::{Solid, Vec3};
 
     #[test]
     fn surfaces_are_named_and_long_programs_cut() {
@@ -129,9 +155,16 @@ mod tests {
         let all: Vec<String> = rows(&compiled.catalog, words, &names, 99).iter().map(text).collect();
         assert_eq!(all.len(), 8);
         assert_eq!(all[0], "Operator(Intersection)");
-        assert!(all.contains(&"x < 1  (block 0)".into()) && all.contains(&"z > 0  (block 0)".into()), "{all:?}");
+        assert!(all.contains(&"block 0: x < 1".into()) && all.contains(&"block 0: z > 0".into()), "{all:?}");
         assert_eq!(all[7], "outside sphere 1");
         let cut = rows(&compiled.catalog, words, &names, 4);
         assert_eq!((cut.len(), &cut[3].what), (4, &What::More(5)));
+    }
+    #[test]
+    fn slanted_planes_are_inequalities() {
+        let plane = |normal: [f64; 3], offset| Plane { normal: Vec3::from(normal), offset };
+        assert_eq!(half_space(&plane([0.6, 0.0, -0.8], 1.5), false), "0.6x - 0.8z < 1.5");
+        assert_eq!(half_space(&plane([-0.6, 0.8, 0.0], 1.5), true), "-0.6x + 0.8y > 1.5");
+        assert_eq!(half_space(&plane([1.0 - 1e-9, 1e-5, 0.0], 2.0), false), "x < 2");
     }
 }

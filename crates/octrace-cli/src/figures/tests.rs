@@ -25,6 +25,12 @@ fn figures(scene: &Scene) -> Result<[String; 5], Failure> {
     draw(&Subject { scene, bodies: &bodies, tracer, view, pixel: (35, 30), slice_z: None, octree }, &exec)
 }
 
+/// The sheet's height.
+fn height(figure: &str) -> f64 {
+    let text = figure.split_once("height=\"").and_then(|(_, rest)| rest.split_once('"'));
+    text.and_then(|(height, _)| height.parse().ok()).expect("an SVG file says how high it is")
+}
+
 /// A text in a figure: where it is, and what it says.
 struct Words {
     left: f64,
@@ -65,10 +71,11 @@ fn words(figure: &str) -> Vec<Words> {
 
 /// No text leaves the sheet or runs into another one.
 fn check_legible(name: &str, figure: &str) {
-    let words = words(figure);
+    let (words, bottom) = (words(figure), height(figure));
     assert!(words.len() > 1, "{name}");
     for (index, a) in words.iter().enumerate() {
-        assert!(a.left > 0.0 && a.right < WIDTH, "{name}: {:?} leaves the sheet", a.text);
+        let within = a.left > 0.0 && a.right < WIDTH && a.base > a.size && a.base + 0.2 * a.size < bottom;
+        assert!(within, "{name}: {:?} leaves the sheet", a.text);
         for b in &words[index + 1..] {
             let across = a.left < b.right && b.left < a.right;
             let (low, high) = if a.base > b.base { (a, b) } else { (b, a) };
