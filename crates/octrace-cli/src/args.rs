@@ -131,7 +131,7 @@ pub struct TraceArgs {
     /// How rays walk the octree
     #[arg(long, value_name = "NAME", default_value_t = TraversalKind::ALL[0], value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
     pub traversal: TraversalKind,
-    /// How often the octree's cells are divided at most [default: by the number of primitives]
+    /// How often the octree's cells are divided at most [default: as long as it makes rays faster]
     #[arg(long, value_name = "N", value_parser = values::count(0..=20))]
     pub octree_depth: Option<u32>,
     /// How many different surfaces of primitives (a block has six, a ball one) a cell may hold without being divided

@@ -65,10 +65,10 @@ proptest! {
         let catalog = &compiled.catalog;
         let whole = &compiled.bodies[0].whole;
         let mut simplifier = Simplifier::default();
-        let cell = CellBox { center, half: half + Vec3::splat(MARGIN) };
+        let cell = CellBox::with_margin(center, half, MARGIN);
         let reduced = simplified(&mut simplifier, catalog, whole, &cell);
         // Once more, in an eighth of the box, as the octree does.
-        let corner = CellBox { center: center + half * 0.5, half: half * 0.5 + Vec3::splat(MARGIN) };
+        let corner = CellBox::with_margin(center + half * 0.5, half * 0.5, MARGIN);
         let twice = simplified(&mut simplifier, catalog, &reduced, &corner);
 
         let inside = |program: &Constant, p: Vec3| match program {

@@ -119,7 +119,7 @@ proptest! {
     ) {
         let torus = Torus { minor, to_local: map.inverse().expect("placements are invertible") };
         let half = half * minor.min(2.0);
-        let cell = CellBox { center: map.point(through) + beside * (2.0 * half), half: Vec3::splat(half) };
+        let cell = CellBox::new(map.point(through) + beside * (2.0 * half), Vec3::splat(half));
         let side = torus.classify(&cell);
         let steps = || [-1.0, -0.5, 0.0, 0.5, 1.0].into_iter();
         let grid = steps().flat_map(|x| steps().flat_map(move |y| steps().map(move |z| Vec3::new(x, y, z))));
@@ -142,7 +142,7 @@ fn small_cells_off_the_surface_are_told() {
     for x in -steps..steps {
         for z in -steps..steps {
             let center = Vec3::new((f64::from(x) + 0.5) * half, 0.3, (f64::from(z) + 0.5) * half);
-            crossing += u32::from(torus.classify(&CellBox { center, half: Vec3::splat(half / 2.0) }) == Side::Crossing);
+            crossing += u32::from(torus.classify(&CellBox::new(center, Vec3::splat(half / 2.0))) == Side::Crossing);
             let corners = (0..8).map(|i| {
                 let side = |bit: i32| if i & bit == 0 { -half / 2.0 } else { half / 2.0 };
                 outside_by(0.5, center + Vec3::new(side(1), side(2), side(4)))

@@ -114,12 +114,6 @@ impl Shapes {
         let (minor, minor_at) = args.number("minor").unwrap_or((0.25 * major, args.name_at));
         is_positive(major, major_at, "radius-not-positive", "major radius of a torus", NOTHING, report)?;
         is_positive(minor, minor_at, "radius-not-positive", "minor radius of a torus", NOTHING, report)?;
-        if minor >= major {
-            let message = "the minor radius of a torus must be smaller than the major one";
-            let help = format!("here it is {minor}, and the major one is {major}");
-            report.push(Diagnostic::error("torus-closed", minor_at, message).with_help(help));
-            return None;
-        }
         let unit = self.unit(Unit::Torus((minor / major).to_bits()));
         place(unit, Affine::scale(Vec3::splat(major)), major_at, report)
     }
@@ -184,9 +178,6 @@ fn is_positive(
     None
 }
 
-/// Coordinates up to this size have products that are still numbers.
-const FARTHEST: f64 = 1e30;
-
 /// What is smaller than its distance from the origin by this factor has not enough digits left for a shape.
 const LEAST_SHARE: f64 = 1e-13;
 
@@ -204,10 +195,12 @@ pub(super) fn can_be_placed(leaf: &Solid, map: &Affine, at: SourceRange, report:
     };
     let (reach, size) = (bounds.min.abs().max(bounds.max.abs()).max_abs(), bounds.size());
     let thinnest = size.x.min(size.y).min(size.z);
-    let wrong = if reach > FARTHEST || reach.is_nan() {
+    let wrong = if reach > Primitive::LONGEST || reach.is_nan() {
         "this is too large, or too far from the origin, to compute with"
     } else if !matches!(primitive, Primitive::HalfSpace) && thinnest <= LEAST_SHARE * reach {
         "this is so small, or so far from the origin, that no digits are left for its shape"
+    } else if map.inverse().is_some_and(|inverse| primitive.exceeds_numbers(&bounds, &inverse)) {
+        "this is too small, or too thin, to compute with"
     } else {
         return true;
     };

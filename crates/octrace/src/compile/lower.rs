@@ -182,8 +182,8 @@ impl Lowering {
         let Some(inverse) = map.inverse() else {
             return Lowered::constant(negated);
         };
-        let bounds = primitive.bounds(map);
-        if exceeds_numbers(primitive, &bounds, &inverse) {
+        let bounds = reliable_bounds(primitive, map, &inverse);
+        if primitive.exceeds_numbers(&bounds, &inverse) {
             return Lowered::constant(negated);
         }
         let leaf = self.leaves.len() as u32;
@@ -241,21 +241,21 @@ impl Lowering {
     }
 }
 
-/// Lengths from the inverse of this up to this are told apart; what is larger or thinner is nothing. Then the fourth powers
-/// that finding crossings takes are numbers, whatever the ray.
-const LONGEST: f64 = 1e30;
-
-/// Whether a bounded primitive is too large, too far away, or too thin to calculate with.
-fn exceeds_numbers(primitive: &Primitive, bounds: &Bounds, inverse: &Affine) -> bool {
-    let thin = match primitive {
-        Primitive::HalfSpace => return false,
-        Primitive::Torus { minor } => *minor < 1.0 / LONGEST,
-        _ => false,
-    };
-    let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
-    let steepest = inverse.rows.iter().map(|row| row.max_abs()).fold(0.0, f64::max);
-    // Also where a number is NaN.
-    thin || !(farthest <= LONGEST && steepest <= LONGEST)
+/// A box around the primitive as its surfaces have it, which know the inverse only. Of a map that squashes space at an
+/// angle the inverse is imprecise: what that does to the primitive's points, moved there and back, comes on top.
+fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bounds {
+    let bounds = primitive.bounds(map);
+    let local = primitive.bounds(&Affine::IDENTITY);
+    if !local.is_bounded() {
+        return bounds;
+    }
+    let apply = |affine: &Affine, to: Vec3| Vec3::from(affine.rows.map(|row| row.abs().dot(to)));
+    let farthest = local.min.abs().max(local.max.abs());
+    let there_and_back = apply(inverse, apply(map, farthest) + map.translation.abs());
+    let off = apply(map, there_and_back * (8.0 * f64::EPSILON));
+    // The margins of cells cover the usual.
+    let usual = 1e-9 * bounds.size().max_abs() + 1e-13 * bounds.min.max_abs().max(bounds.max.max_abs());
+    if off.max_abs() <= usual { bounds } else { Bounds::new(bounds.min - off, bounds.max + off) }
 }
 
 /// The faces of one primitive, moved to the scene by `map`.

@@ -1,8 +1,8 @@
 //! Simplifying a program in a box [Wyvill-Kunii-Shirai 1986; Comba-Persiano, §3].
 //!
 //! A surface that misses the box, or has all of it inside, is a constant there; boolean algebra does the rest:
-//! `A ∪ 0 = A`, `A ∩ 0 = 0`, `A ∩ 1 = A` and so on. In small programs a surface that has already been decided on the way
-//! down counts as a constant for what comes later: `P ∩ (¬P ∪ Q) = P ∩ Q`. Only *later* nodes may profit: the visible one
+//! `A ∪ 0 = A`, `A ∩ 0 = 0`, `A ∩ 1 = A` and so on. A surface that has already been decided on the way
+//! down (one of the latest, lest long lists are searched again and again) counts as a constant for what comes later: `P ∩ (¬P ∪ Q) = P ∩ Q`. Only *later* nodes may profit: the visible one
 //! of several surfaces crossed at once is the first in source order (see `trace::combine`), and so it stays the same.
 
 use super::{Catalog, Word, nesting, node_end};
@@ -27,8 +27,8 @@ pub struct Simplifier {
     pub classified: u64,
 }
 
-/// Programs of up to this many words have known surfaces tracked.
-const TRACKED_WORDS: usize = 64;
+/// Of the known surfaces, so many are looked at.
+const LATEST: usize = 64;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Node {
@@ -44,7 +44,7 @@ impl Simplifier {
         self.known.clear();
         // Every level takes two words at least.
         let levels = if words.len() <= 128 { 0 } else { nesting(words) };
-        let mut run = Run { catalog, cell, words, out, track: words.len() <= TRACKED_WORDS, simplifier: self };
+        let mut run = Run { catalog, cell, words, out, simplifier: self };
         match with_stack_for(levels, || run.node(0)) {
             Node::False => Simplified::Constant(false),
             Node::True => Simplified::Constant(true),
@@ -58,7 +58,6 @@ struct Run<'a> {
     cell: &'a CellBox,
     words: &'a [u32],
     out: &'a mut Vec<u32>,
-    track: bool,
     simplifier: &'a mut Simplifier,
 }
 
@@ -74,9 +73,8 @@ impl Run<'_> {
     fn literal(&mut self, index: u32, negated: bool, word: u32) -> Node {
         let surface = self.catalog.literals[index as usize].surface;
         let constant = |inside: bool| if inside != negated { Node::True } else { Node::False };
-        if self.track
-            && let Some(&(_, inside)) = self.simplifier.known.iter().find(|&&(known, _)| known == surface)
-        {
+        let mut known = self.simplifier.known.iter().rev().take(LATEST);
+        if let Some(&(_, inside)) = known.find(|&&(known, _)| known == surface) {
             return constant(inside);
         }
         self.simplifier.classified += 1;
@@ -154,9 +152,7 @@ impl Run<'_> {
 
     /// Notes what a kept literal is wherever its later siblings matter: true in an `And`, false in an `Or`.
     fn learn(&mut self, word: u32, is_and: bool) {
-        if self.track
-            && let Word::Literal { index, negated } = Word::decode(word)
-        {
+        if let Word::Literal { index, negated } = Word::decode(word) {
             let surface = self.catalog.literals[index as usize].surface;
             self.simplifier.known.push((surface, is_and != negated));
         }

@@ -1,11 +1,13 @@
 //! Building: every cell hands its children only what survived in it.
 
-use super::{CellWord, Kind, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, node_end};
+use super::subtree::Subtree;
+use super::{CellWord, Octree};
+use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
+use crate::surface::CellBox;
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::ops::Range;
 
 /// When to stop cutting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +15,8 @@ pub struct BuildOptions {
     /// A cell with this many different surfaces or fewer is a leaf: the paper's *p*, which counts primitives (a block has six
     /// surfaces). More than [`MAX_LEAF_SURFACES`](Self::MAX_LEAF_SURFACES) count as that many.
     pub leaf_surfaces: usize,
-    /// Levels below the root; `None` chooses by the number of surfaces.
+    /// Levels below the root at most, as the paper has it. `None` leaves that to the expected cost of rays, and bounds the
+    /// work of building (`docs/decisions/0004-when-to-stop.md`).
     pub depth: Option<u32>,
 }
 
@@ -28,11 +31,6 @@ impl BuildOptions {
     pub const MAX_LEAF_SURFACES: usize = 64;
     /// The deepest octree that can be asked for; cells must stay large compared to their margin.
     pub const MAX_DEPTH: u32 = 20;
-
-    fn depth_for(&self, literals: usize, max_depth: u32) -> u32 {
-        let by_size = ((literals.max(1) as f64).log2() / 3.0).ceil() as u32 + 3;
-        self.depth.unwrap_or(by_size).min(max_depth)
-    }
 }
 
 /// Builds the octree of a body, no deeper than `max_depth` (at most [`BuildOptions::MAX_DEPTH`]); `None` where nothing in it
@@ -61,8 +59,7 @@ pub fn build(
     // Hits are computed to some 1e-14 of the distances involved; the margin leaves plenty.
     let margin = (1e-8 * half).max(1e-12 * farthest);
 
-    let literals = words.iter().filter(|&&w| matches!(Word::decode(w), Word::Literal { .. })).count();
-    let depth = options.depth_for(literals, max_depth);
+    let depth = options.depth.unwrap_or(BuildOptions::MAX_DEPTH).min(max_depth);
     let mut octree = Octree {
         center,
         half,
@@ -75,12 +72,26 @@ pub fn build(
     };
 
     exec.progress.begin("building the octree", PROGRESS_STEPS);
-    let builder = Builder { catalog, octree: &octree, leaf_surfaces: options.leaf_surfaces, depth, exec };
+    let builder = Builder {
+        catalog,
+        octree: &octree,
+        leaf_surfaces: options.leaf_surfaces,
+        depth,
+        by_cost: options.depth.is_none(),
+        exec,
+    };
     let mut simplifier = Simplifier::default();
     let mut reduced = Vec::new();
-    let result = match simplifier.simplify(catalog, words, &octree.grown(center, half), &mut reduced) {
+    let words = without_repeats(catalog, words);
+    let result = match simplifier.simplify(catalog, &words, &octree.grown(center, half), &mut reduced) {
         Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-        Simplified::Reduced => builder.top_cell(&reduced, center, half, 0),
+        Simplified::Reduced => {
+            let budget = match options.depth {
+                Some(_) => u64::MAX,
+                None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
+            };
+            builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
+        }
     };
     exec.progress.end();
     let tree = result?;
@@ -99,76 +110,42 @@ fn short(v: f64) -> f64 {
     libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
 }
 
+/// Where no depth is asked for, cutting may read every word of the program so many times. Where surfaces lie apart from each other, as they
+/// mostly do, a tenth of it is enough; where all are everywhere, cutting would go on for nothing. Every cell has its share,
+/// by the length of its program: whatever is spent in one corner, no other goes short.
+const MOST_WORDS_READ: u64 = 4000;
+/// And so many words for small programs.
+const MOST_WORDS_READ_AT_LEAST: u64 = 1 << 18;
+
 /// Progress is counted in cells of this level.
 const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
 /// Cells above this level are built in parallel, each child for itself.
 const PARALLEL_LEVELS: u32 = 3;
 
-/// A part of the tree with tables of its own.
-struct Subtree {
-    root: CellWord,
-    branches: Vec<[CellWord; 8]>,
-    programs: Vec<u32>,
-    /// Offsets of the programs so far; equal ones are stored once.
-    interned: HashMap<Box<[u32]>, u32>,
-    depth: u32,
-    classified: u64,
+/// Where a cell is.
+#[derive(Clone, Copy)]
+struct Place {
+    center: Vec3,
+    half: f64,
+    level: u32,
 }
 
-impl Subtree {
-    fn constant(inside: bool) -> Self {
-        Self {
-            root: if inside { CellWord::INSIDE } else { CellWord::OUTSIDE },
-            branches: Vec::new(),
-            programs: Vec::new(),
-            interned: HashMap::new(),
-            depth: 0,
-            classified: 0,
-        }
+impl Place {
+    fn child(self, octant: usize) -> Self {
+        let half = self.half / 2.0;
+        Self { center: Octree::child_center(self.center, half, octant), half, level: self.level + 1 }
     }
+}
 
-    /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
-    fn join(&mut self, index: usize) -> CellWord {
-        let children = self.branches[index];
-        let uniform = children[0] == CellWord::OUTSIDE || children[0] == CellWord::INSIDE;
-        if uniform && index + 1 == self.branches.len() && children.iter().all(|&child| child == children[0]) {
-            self.branches.pop();
-            return children[0];
-        }
-        CellWord::branch(index as u32)
-    }
+/// How many words are read to cut a cell.
+fn cost_of_cutting(words: &[u32]) -> u64 {
+    8 * words.len() as u64
+}
 
-    fn intern(&mut self, program: &[u32]) -> CellWord {
-        if let Some(&offset) = self.interned.get(program) {
-            return CellWord::leaf(offset);
-        }
-        let offset = self.programs.len() as u32;
-        self.programs.extend_from_slice(program);
-        self.interned.insert(program.into(), offset);
-        CellWord::leaf(offset)
-    }
-
-    /// Takes over another subtree's tables; returns its root as seen from here.
-    fn adopt(&mut self, other: Subtree) -> CellWord {
-        let first_branch = self.branches.len() as u32;
-        let mut moved: HashMap<u32, CellWord> = HashMap::new();
-        let mut relocate = |tree: &mut Self, word: CellWord| match word.kind() {
-            Kind::Branch(index) => CellWord::branch(first_branch + index),
-            Kind::Leaf(offset) => *moved.entry(offset).or_insert_with(|| {
-                let start = offset as usize;
-                tree.intern(&other.programs[start..node_end(&other.programs, start)])
-            }),
-            Kind::Outside | Kind::Inside => word,
-        };
-        for branch in &other.branches {
-            let branch = branch.map(|word| relocate(self, word));
-            self.branches.push(branch);
-        }
-        self.depth = self.depth.max(other.depth);
-        self.classified += other.classified;
-        relocate(self, other.root)
-    }
+/// The part of a budget for a child with so many words of all.
+fn share(budget: u64, words: usize, all: usize) -> u64 {
+    (u128::from(budget) * words as u128 / all.max(1) as u128) as u64
 }
 
 struct Builder<'a> {
@@ -177,44 +154,61 @@ struct Builder<'a> {
     octree: &'a Octree,
     leaf_surfaces: usize,
     depth: u32,
+    /// Whether cells are cut only where that is expected to pay.
+    by_cost: bool,
     exec: &'a Exec,
 }
 
 impl Builder<'_> {
     /// Builds a cell near the root: its children in parallel.
-    fn top_cell(&self, words: &[u32], center: Vec3, half: f64, level: u32) -> Result<Subtree, Cancelled> {
+    fn top_cell(&self, words: &[u32], place: Place, budget: u64) -> Result<Subtree, Cancelled> {
         self.exec.cancel.check()?;
-        let mut tree = Subtree::constant(false);
-        if self.is_leaf(words, level) {
-            tree.root = tree.intern(words);
-            tree.depth = level;
-            self.advance(level);
-            return Ok(tree);
+        if self.is_leaf(words, place.level, budget) {
+            self.advance(place.level);
+            return Ok(Subtree::leaf(words, place.level));
         }
-        if level >= PARALLEL_LEVELS {
+        let mut tree = Subtree::constant(false);
+        if place.level >= PARALLEL_LEVELS {
             let mut simplifier = Simplifier::default();
             let mut stack = words.to_vec();
             let end = stack.len();
-            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, (0, end), center, half, level)?;
+            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, 0..end, place, budget)?;
             tree.classified = simplifier.classified;
             return Ok(tree);
         }
-        let child_half = half / 2.0;
-        let children: Vec<Result<Subtree, Cancelled>> = (0..8)
+        let simplified: Vec<(Simplified, Vec<u32>, u64)> = (0..8)
             .into_par_iter()
             .map(|octant| {
-                let child_center = Octree::child_center(center, child_half, octant);
                 let mut reduced = Vec::new();
                 let mut simplifier = Simplifier::default();
-                let cell = self.octree.grown(child_center, child_half);
-                let mut child = match simplifier.simplify(self.catalog, words, &cell, &mut reduced) {
+                let cell = self.grown(place.child(octant));
+                let simplified = simplifier.simplify(self.catalog, words, &cell, &mut reduced);
+                (simplified, reduced, simplifier.classified)
+            })
+            .collect();
+        let lengths: Vec<usize> = simplified.iter().map(|(_, reduced, _)| reduced.len()).collect();
+        if !self.pays(words.len(), lengths.iter().copied()) {
+            let mut tree = Subtree::leaf(words, place.level);
+            tree.classified = simplified.iter().map(|(_, _, classified)| classified).sum();
+            self.advance(place.level);
+            return Ok(tree);
+        }
+        let left = budget - cost_of_cutting(words);
+        let all: usize = lengths.iter().sum();
+        let children: Vec<Result<Subtree, Cancelled>> = simplified
+            .into_par_iter()
+            .enumerate()
+            .map(|(octant, (simplified, reduced, classified))| {
+                let mut child = match simplified {
                     Simplified::Constant(inside) => {
-                        self.advance(level + 1);
+                        self.advance(place.level + 1);
                         Subtree::constant(inside)
                     }
-                    Simplified::Reduced => self.top_cell(&reduced, child_center, child_half, level + 1)?,
+                    Simplified::Reduced => {
+                        self.top_cell(&reduced, place.child(octant), share(left, reduced.len(), all))?
+                    }
                 };
-                child.classified += simplifier.classified;
+                child.classified += classified;
                 Ok(child)
             })
             .collect();
@@ -229,51 +223,68 @@ impl Builder<'_> {
     }
 
     /// Builds a cell whose program is the range `program` of `stack`; leaves the stack as it was.
-    #[expect(clippy::too_many_arguments, reason = "the recursion's state, spelled out")]
     fn cell(
         &self,
         tree: &mut Subtree,
         simplifier: &mut Simplifier,
         stack: &mut Vec<u32>,
-        program: (usize, usize),
-        center: Vec3,
-        half: f64,
-        level: u32,
+        program: Range<usize>,
+        place: Place,
+        budget: u64,
     ) -> Result<CellWord, Cancelled> {
-        if self.is_leaf(&stack[program.0..program.1], level) {
-            tree.depth = tree.depth.max(level);
-            self.advance(level);
-            return Ok(tree.intern(&stack[program.0..program.1]));
+        let words = &stack[program.clone()];
+        if self.is_leaf(words, place.level, budget) {
+            tree.depth = tree.depth.max(place.level);
+            self.advance(place.level);
+            return Ok(tree.intern(words));
         }
         self.exec.cancel.check()?;
-        let index = tree.branches.len();
-        tree.branches.push([CellWord::OUTSIDE; 8]);
-        let child_half = half / 2.0;
+        let left = budget - cost_of_cutting(words);
+        let bottom = stack.len();
         let mut reduced = Vec::new();
-        for octant in 0..8 {
-            let child_center = Octree::child_center(center, child_half, octant);
-            let cell = self.octree.grown(child_center, child_half);
+        let mut children = [CellWord::OUTSIDE; 8];
+        let mut ranges: [Range<usize>; 8] = Default::default();
+        for (octant, range) in ranges.iter_mut().enumerate() {
             reduced.clear();
-            let simplified = simplifier.simplify(self.catalog, &stack[program.0..program.1], &cell, &mut reduced);
-            tree.branches[index][octant] = match simplified {
+            let cell = self.grown(place.child(octant));
+            match simplifier.simplify(self.catalog, &stack[program.clone()], &cell, &mut reduced) {
                 Simplified::Constant(inside) => {
-                    self.advance(level + 1);
-                    if inside { CellWord::INSIDE } else { CellWord::OUTSIDE }
+                    children[octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
                 }
                 Simplified::Reduced => {
-                    let start = stack.len();
+                    *range = stack.len()..stack.len() + reduced.len();
                     stack.extend_from_slice(&reduced);
-                    let range = (start, stack.len());
-                    let word = self.cell(tree, simplifier, stack, range, child_center, child_half, level + 1)?;
-                    stack.truncate(start);
-                    word
                 }
-            };
+            }
         }
-        if level == PROGRESS_LEVEL {
+        if !self.pays(program.len(), ranges.iter().map(Range::len)) {
+            stack.truncate(bottom);
+            tree.depth = tree.depth.max(place.level);
+            self.advance(place.level);
+            return Ok(tree.intern(&stack[program]));
+        }
+        let all = stack.len() - bottom;
+        let index = tree.branches.len();
+        tree.branches.push(children);
+        for (octant, range) in ranges.into_iter().enumerate() {
+            if range.is_empty() {
+                self.advance(place.level + 1);
+                continue;
+            }
+            let budget = share(left, range.len(), all);
+            let word = self.cell(tree, simplifier, stack, range, place.child(octant), budget)?;
+            tree.branches[index][octant] = word;
+        }
+        stack.truncate(bottom);
+        if place.level == PROGRESS_LEVEL {
             self.exec.progress.advance(1);
         }
         Ok(tree.join(index))
+    }
+
+    /// The cell's box with its margin.
+    fn grown(&self, place: Place) -> CellBox {
+        self.octree.grown(place.center, place.half)
     }
 
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.
@@ -283,8 +294,24 @@ impl Builder<'_> {
         }
     }
 
-    fn is_leaf(&self, words: &[u32], level: u32) -> bool {
-        level >= self.depth || self.surfaces_at_most(words)
+    fn is_leaf(&self, words: &[u32], level: u32, budget: u64) -> bool {
+        level >= self.depth || cost_of_cutting(words) > budget || self.surfaces_at_most(words)
+    }
+
+    /// Whether rays are expected to be faster in the children, whose programs have those lengths (0 where a child is all
+    /// inside or all outside), than in a leaf with a program of so many words.
+    ///
+    /// A ray that meets a cube meets each of its octants with a probability of 1/4 (Cauchy: the ratio of surfaces), and some
+    /// end before they get there.
+    fn pays(&self, words: usize, children: impl Iterator<Item = usize>) -> bool {
+        /// A step to the next cell takes as long as so many words of a program.
+        const STEP: f64 = 4.0;
+        /// The share of rays through a cell that get to a certain child.
+        const REACHED: f64 = 0.2;
+        /// With longer programs there is always something to gain, if not at once.
+        const LONG: usize = 64;
+        let cut = REACHED * children.map(|words| STEP + words as f64).sum::<f64>();
+        !self.by_cost || words > LONG || cut < STEP + words as f64
     }
 
     /// Whether a program has no more different surfaces than a leaf may.

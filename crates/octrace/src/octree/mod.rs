@@ -2,6 +2,7 @@
 //! [Wyvill-Kunii-Shirai 1986; Comba-Persiano, §3].
 
 mod build;
+mod subtree;
 
 pub use build::{BuildOptions, build};
 
@@ -146,7 +147,7 @@ impl Octree {
 
     /// The box of a cell, grown by the margin.
     pub(crate) fn grown(&self, center: Vec3, half: f64) -> CellBox {
-        CellBox { center, half: Vec3::splat(half + self.margin) }
+        CellBox::with_margin(center, Vec3::splat(half), self.margin)
     }
 
     /// Counts its cells.

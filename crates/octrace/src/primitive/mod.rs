@@ -42,6 +42,24 @@ impl From<Polyhedron> for Primitive {
 }
 
 impl Primitive {
+    /// Lengths from the inverse of this up to this are told apart; what is larger or thinner is nothing. Then the fourth
+    /// powers that finding crossings takes are numbers, whatever the ray.
+    pub const LONGEST: f64 = 1e30;
+
+    /// Whether the primitive is too large, too far away, or too thin to calculate with where it was moved: in a box
+    /// `bounds`, by a map with that inverse.
+    pub fn exceeds_numbers(&self, bounds: &Bounds, inverse: &Affine) -> bool {
+        let thin = match self {
+            Self::HalfSpace => return false,
+            Self::Torus { minor } => *minor < 1.0 / Self::LONGEST,
+            _ => false,
+        };
+        let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
+        let steepest = inverse.rows.iter().map(|row| row.max_abs()).fold(0.0, f64::max);
+        // Also where a number is NaN.
+        thin || !(farthest <= Self::LONGEST && steepest <= Self::LONGEST)
+    }
+
     /// The smallest axis-aligned box around the primitive after it was moved by `map`.
     pub fn bounds(&self, map: &Affine) -> Bounds {
         // Half-extent of the image of a disc of radius r in the xy plane, by axis.

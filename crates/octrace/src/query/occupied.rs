@@ -56,7 +56,7 @@ impl Search<'_> {
             return;
         }
         let mut reduced = Vec::new();
-        let bounds = CellBox { center, half };
+        let bounds = CellBox::new(center, half);
         match self.simplifier.simplify(self.tracer.catalog(), words, &bounds, &mut reduced) {
             Simplified::Constant(false) => {}
             Simplified::Reduced if levels_left > 0 => {

@@ -39,6 +39,14 @@ impl Crossings {
         Self { t: [a + 0.0, b + 0.0, 0.0, 0.0], count: 2, starts_inside }
     }
 
+    /// The same crossings for parameters that count from elsewhere: `by` is where the present zero lies.
+    pub fn shifted(mut self, by: f64) -> Self {
+        for t in &mut self.t[..self.count as usize] {
+            *t += by;
+        }
+        self
+    }
+
     /// Adds a change of sides, not before those that are there.
     ///
     /// # Panics

@@ -36,6 +36,32 @@ pub struct CellBox {
     pub center: Vec3,
     /// Half the edge lengths.
     pub half: Vec3,
+    /// How far off, in scene units, rounding may have put the points that are said to be in the box. In the coordinates of
+    /// a surface that was squashed at an angle this becomes an error across the surface too, and is accounted for there.
+    pub rounding: f64,
+}
+
+impl CellBox {
+    /// Margins are this many times what rounding does.
+    const MARGIN_IN_ROUNDINGS: f64 = 64.0;
+
+    /// A box, for points that are known to be in it.
+    pub fn new(center: Vec3, half: Vec3) -> Self {
+        Self { center, half, rounding: 0.0 }
+    }
+
+    /// A box with a margin all around that amply covers what rounding does to points in it.
+    pub fn with_margin(center: Vec3, half: Vec3, margin: f64) -> Self {
+        Self { center, half: half + Vec3::splat(margin), rounding: margin / Self::MARGIN_IN_ROUNDINGS }
+    }
+
+    /// How far each of the coordinates to which `rows` are the linear part may be from the box's middle, and how far off
+    /// rounding may have put them.
+    pub(crate) fn reach(&self, rows: &[Vec3; 3]) -> (Vec3, Vec3) {
+        let reach = rows.map(|row| row.abs().dot(self.half));
+        let rounding = rows.map(|row| row.abs().dot(Vec3::splat(self.rounding)));
+        (Vec3::from(reach) + Vec3::from(rounding), Vec3::from(rounding))
+    }
 }
 
 /// A surface in scene space.

@@ -35,15 +35,10 @@ impl QuadricKind {
             Self::Cone => (-1.0, 0.0),
         }
     }
-}
 
-impl Quadric {
-    /// See [`Surface::crossings`](super::Surface::crossings). A line that only touches is outside (of a cone, where it
-    /// comes from inside: inside).
-    pub fn crossings(&self, ray: &Ray) -> Crossings {
-        let (s, c0) = self.kind.coefficients();
-        let o = self.to_local.point(ray.origin);
-        let d = self.to_local.vector(ray.direction);
+    /// Where the line `o + t d` crosses the quadric, all in its own coordinates.
+    fn crossings(self, o: Vec3, d: Vec3) -> Crossings {
+        let (s, c0) = self.coefficients();
         // f(o + t d) = a t² + 2 b t + c.
         let a = d.x * d.x + d.y * d.y + s * (d.z * d.z);
         let b = o.x * d.x + o.y * d.y + s * (o.z * d.z);
@@ -65,17 +60,34 @@ impl Quadric {
         let q = if b > 0.0 { -b - root } else { root - b };
         Crossings::two(a < 0.0, q / a, c / q)
     }
+}
+
+impl Quadric {
+    /// See [`Surface::crossings`](super::Surface::crossings). A line that only touches is outside (of a cone, where it
+    /// comes from inside: inside).
+    pub fn crossings(&self, ray: &Ray) -> Crossings {
+        let o = self.to_local.point(ray.origin);
+        let d = self.to_local.vector(ray.direction);
+        let nearest = -o.dot(d) / d.dot(d);
+        // Near its apex a cone is so flat, compared to the squares of far coordinates, that their roundings would move it.
+        // So the line is followed from where it is nearest to the apex.
+        match self.kind == QuadricKind::Cone && nearest.is_finite() {
+            true => self.kind.crossings(o + d * nearest, d).shifted(nearest),
+            false => self.kind.crossings(o, d),
+        }
+    }
 
     /// See [`Surface::classify`](super::Surface::classify).
     ///
     /// In local coordinates the cell is a parallelepiped `q + sum u_i e_i`, `|u_i| <= 1`. Two enclosures of `f` over it
     /// are intersected: interval arithmetic on the coordinates, good for large cells, and the mean value form
-    /// `f(q) + grad f(q) . delta + delta S delta`, good for small ones.
+    /// `f(q) + grad f(q) . delta + delta S delta`, good for small ones. What rounding does to the coordinates is no shift
+    /// within that parallelepiped, and comes on top.
     pub fn classify(&self, cell: &CellBox) -> Side {
         let (s, c0) = self.kind.coefficients();
         let q = self.to_local.point(cell.center);
         let rows = &self.to_local.rows;
-        let reach = Vec3::new(rows[0].abs().dot(cell.half), rows[1].abs().dot(cell.half), rows[2].abs().dot(cell.half));
+        let (reach, rounding) = cell.reach(rows);
         // Smallest and largest square over an interval about `m`.
         let square = |m: f64, r: f64| {
             let (near, far) = ((m.abs() - r).max(0.0), m.abs() + r);
@@ -87,7 +99,7 @@ impl Quadric {
 
         let value = q.x * q.x + q.y * q.y + s * (q.z * q.z) + c0;
         let slope = self.to_local.transposed_vector(Vec3::new(2.0 * q.x, 2.0 * q.y, 2.0 * s * q.z));
-        let linear = slope.abs().dot(cell.half);
+        let linear = slope.abs().dot(cell.half) + 2.0 * q.abs().dot(rounding);
         let bulge = reach.x * reach.x + reach.y * reach.y;
         let (bulge_low, bulge_high) = match self.kind {
             QuadricKind::Sphere => (0.0, bulge + reach.z * reach.z),
@@ -177,7 +189,7 @@ mod tests {
     #[test]
     fn classification_is_right_for_cells_in_and_out() {
         let sphere = unit(QuadricKind::Sphere);
-        let cell = |x: f64, h: f64| CellBox { center: Vec3::new(x, 0.0, 0.0), half: Vec3::splat(h) };
+        let cell = |x: f64, h: f64| CellBox::new(Vec3::new(x, 0.0, 0.0), Vec3::splat(h));
         assert_eq!(sphere.classify(&cell(0.0, 0.5)), Side::Inside);
         assert_eq!(sphere.classify(&cell(0.0, 0.6)), Side::Crossing);
         assert_eq!(sphere.classify(&cell(2.0, 0.9)), Side::Outside);

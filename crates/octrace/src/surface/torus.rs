@@ -116,21 +116,20 @@ impl Torus {
             edges[0] - edges[1] + edges[2],
             edges[0] - edges[1] - edges[2],
         ];
-        let radius = corners.iter().map(|c| c.length()).fold(0.0, f64::max);
+        let (reach, rounding) = cell.reach(&self.to_local.rows);
+        let radius = corners.iter().map(|c| c.length()).fold(0.0, f64::max) + rounding.length();
         let (mut low, mut high) = (distance - radius, distance + radius);
 
         // The distance's second derivatives are 1/distance across the tube and at most 1/ρ in magnitude around the ring.
         let least_rho = rho - radius;
         if least_rho > 0.0 && low > 0.0 {
             let normal = ring_normal(q, rho) / distance;
-            let slope: f64 = edges.iter().map(|edge| normal.dot(*edge).abs()).sum();
+            let slope: f64 = edges.iter().map(|edge| normal.dot(*edge).abs()).sum::<f64>() + rounding.length();
             let bend = radius * radius / 2.0;
             let fine = (distance - slope - bend / least_rho, distance + slope + bend / low.min(least_rho));
             (low, high) = (low.max(fine.0), high.min(fine.1));
         }
 
-        let rows = &self.to_local.rows;
-        let reach = Vec3::new(rows[0].abs().dot(cell.half), rows[1].abs().dot(cell.half), rows[2].abs().dot(cell.half));
         let least = Vec3::new(q.x.abs(), q.y.abs(), q.z.abs()) - reach;
         let most = q.abs() + reach;
         let (rho_low, rho_high) = (flat_length(least.x.max(0.0), least.y.max(0.0)), flat_length(most.x, most.y));
@@ -256,7 +255,7 @@ mod tests {
     #[test]
     fn classification_is_right_for_cells_in_and_out() {
         let torus = Torus { minor: 0.5, to_local: Affine::IDENTITY };
-        let classify = |x: f64, half: f64| torus.classify(&CellBox { center: Vec3::X * x, half: Vec3::splat(half) });
+        let classify = |x: f64, half: f64| torus.classify(&CellBox::new(Vec3::X * x, Vec3::splat(half)));
         assert_eq!(classify(0.0, 0.3), Side::Outside, "in the hole");
         assert_eq!(classify(1.0, 0.28), Side::Inside);
         assert_eq!(classify(1.0, 0.4), Side::Crossing);

@@ -119,9 +119,8 @@ impl Body {
         scratch: &mut Scratch,
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
-        let Scratch { roots, counters } = scratch;
         if self.accel == Accel::None || ray.passes_by {
-            counters.surface_tests += catalog.literals.len() as u64;
+            scratch.counters.surface_tests += catalog.literals.len() as u64;
             for hit in ends(self.canonical_spans(catalog, ray)).filter(|hit| start < hit.t && hit.t <= end) {
                 if let ControlFlow::Break(done) = on_hit(hit) {
                     return ControlFlow::Break(Stop::Done(done));
@@ -129,13 +128,10 @@ impl Body {
             }
             return ControlFlow::Continue(());
         }
-        let mut march = March::new(catalog, &ray.ray, roots, counters);
-        let stop = with_stack_for(self.nesting, || {
-            let accelerator = self.octree.as_ref().map(|(octree, traversal)| (octree, traversal));
-            march.along(&self.program, accelerator, (start, end), on_hit)
-        });
+        let accelerator = self.octree.as_ref().map(|(octree, traversal)| (octree, traversal));
+        let stop = March::new(catalog, &ray.ray, scratch).along(&self.program, accelerator, (start, end), on_hit);
         if let ControlFlow::Break(Stop::Leak) = stop {
-            counters.leaks += 1;
+            scratch.counters.leaks += 1;
         }
         stop
     }

@@ -1,7 +1,7 @@
 //! Marching along a ray through the cells of an octree, and through what lies outside it.
 
-use super::roots::{Roots, hit_of};
-use super::stats::Counters;
+use super::Scratch;
+use super::roots::hit_of;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::{Hit, Ray};
 use crate::octree::{Cell, Octree};
@@ -17,19 +17,22 @@ pub(crate) enum Stop<B> {
     Leak,
 }
 
+/// In programs of up to so many words, changes are looked for one after another: mostly the first is all that is wanted.
+/// In longer ones that may begin anew for every crossing, at every operator.
+const SHORT: usize = 32;
+
 /// One ray on its way: whether it is inside is known from the first cell on and changes at crossings only.
 pub(crate) struct March<'a> {
     pub catalog: &'a Catalog,
     pub ray: &'a Ray,
-    pub roots: &'a mut Roots,
-    pub counters: &'a mut Counters,
+    pub scratch: &'a mut Scratch,
     inside: Option<bool>,
 }
 
 impl<'a> March<'a> {
-    pub fn new(catalog: &'a Catalog, ray: &'a Ray, roots: &'a mut Roots, counters: &'a mut Counters) -> Self {
-        roots.begin_ray();
-        Self { catalog, ray, roots, counters, inside: None }
+    pub fn new(catalog: &'a Catalog, ray: &'a Ray, scratch: &'a mut Scratch) -> Self {
+        scratch.roots.begin_ray();
+        Self { catalog, ray, scratch, inside: None }
     }
 
     /// Shows `on_hit` the crossings after `start` up to `end`, in order, until it breaks off.
@@ -53,7 +56,7 @@ impl<'a> March<'a> {
             self.constant(&program.outer, start, t_in, &mut on_hit)?;
         }
         traversal.walk(octree, self.ray, t_in, t_out, |Step { cell, t_in, t_out, .. }| {
-            self.counters.cells += 1;
+            self.scratch.counters.cells += 1;
             match cell {
                 Cell::Outside => self.settled(false),
                 Cell::Inside => self.settled(true),
@@ -93,31 +96,82 @@ impl<'a> March<'a> {
         t_out: f64,
         on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
-        self.roots.solve(self.catalog, words, self.ray);
-        self.counters.surface_tests += words.len() as u64;
+        self.scratch.roots.solve(self.catalog, words, self.ray);
+        self.scratch.counters.surface_tests += words.len() as u64;
+        match words.len() <= SHORT {
+            true => self.step(words, t_in, t_out, on_hit),
+            false => self.sweep(words, t_in, t_out, on_hit),
+        }
+    }
+
+    /// [`words`](Self::words), from change to change of the program.
+    fn step<B>(
+        &mut self,
+        words: &[u32],
+        t_in: f64,
+        t_out: f64,
+        on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
         let mut inside = match self.inside {
             Some(inside) => inside,
-            None => self.roots.inside_after(words, t_in),
+            None => self.scratch.roots.inside_after(words, t_in),
         };
+        self.inside = Some(inside);
         let mut from = t_in;
         loop {
-            let t = self.roots.next(words, from, !inside);
+            let t = self.scratch.roots.next(words, from, !inside);
             if t > t_out || t == f64::INFINITY {
-                break;
+                return ControlFlow::Continue(());
             }
-            let change = self.roots.change(words, t);
+            let change = self.scratch.roots.change(words, t);
             let (Some(word), true) = (change.word, change.after != inside) else {
                 return ControlFlow::Break(Stop::Leak);
             };
             inside = change.after;
-            self.inside = Some(inside);
-            let hit = hit_of(self.catalog, word, self.ray, t, inside);
-            if let ControlFlow::Break(done) = on_hit(hit) {
-                return ControlFlow::Break(Stop::Done(done));
-            }
+            self.cross(word, t, inside, on_hit)?;
             from = t;
         }
-        self.inside = Some(inside);
+    }
+
+    /// [`words`](Self::words), from crossing to crossing of its literals.
+    fn sweep<B>(
+        &mut self,
+        words: &[u32],
+        t_in: f64,
+        t_out: f64,
+        on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        let Scratch { roots, sweep, .. } = &mut *self.scratch;
+        sweep.begin(words, roots, t_in, t_out);
+        let seen_at_start = if sweep.next_t() == Some(t_in) { sweep.pass() } else { None };
+        let mut inside = sweep.is_inside();
+        if *self.inside.get_or_insert(inside) != inside {
+            let Some(at) = seen_at_start else {
+                return ControlFlow::Break(Stop::Leak);
+            };
+            self.cross(words[at], t_in, inside, on_hit)?;
+        }
+        while let Some(t) = self.scratch.sweep.next_t() {
+            if let Some(at) = self.scratch.sweep.pass() {
+                inside = !inside;
+                self.cross(words[at], t, inside, on_hit)?;
+            }
+        }
         ControlFlow::Continue(())
+    }
+
+    /// Shows `on_hit` that the literal `word` is crossed, so that the ray is `inside` from `t` on.
+    fn cross<B>(
+        &mut self,
+        word: u32,
+        t: f64,
+        inside: bool,
+        on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
+    ) -> ControlFlow<Stop<B>> {
+        self.inside = Some(inside);
+        match on_hit(hit_of(self.catalog, word, self.ray, t, inside)) {
+            ControlFlow::Break(done) => ControlFlow::Break(Stop::Done(done)),
+            ControlFlow::Continue(()) => ControlFlow::Continue(()),
+        }
     }
 }

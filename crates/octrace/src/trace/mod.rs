@@ -10,6 +10,7 @@ mod prepared;
 mod report;
 mod roots;
 mod stats;
+mod sweep;
 mod tracer;
 
 pub use cells::OctreeCell;

@@ -71,6 +71,12 @@ impl Prepared {
         t.is_finite().then_some(Hit { t, ..hit })
     }
 
+    /// As [`outer_hit`](Self::outer_hit) for a hit ahead of the ray's start: no parameter is rounded to zero.
+    pub fn outer_hit_ahead(&self, hit: Hit) -> Option<Hit> {
+        const LEAST: f64 = f64::from_bits(1);
+        self.outer_hit(hit).map(|hit| Hit { t: hit.t.max(LEAST), ..hit })
+    }
+
     /// Spans with the caller's parameters. What rounding makes equal on the way leaves no span, and no gap, between.
     pub fn outer_spans(&self, spans: Spans) -> Spans {
         let mut outer: Spans = Spans::with_capacity(spans.len());

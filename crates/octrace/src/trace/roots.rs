@@ -71,7 +71,8 @@ impl Roots {
         false
     }
 
-    fn sides(&self, at: usize) -> Sides<'_> {
+    /// The crossings with the literal at a place of the program.
+    pub fn sides(&self, at: usize) -> Sides<'_> {
         let row = self.rows[at];
         let start = row.start as usize;
         Sides { starts_inside: row.starts_inside, params: &self.params[start..start + row.len as usize] }

@@ -6,6 +6,7 @@ use super::options::TracerOptions;
 use super::prepared::Prepared;
 use super::roots::Roots;
 use super::stats::Counters;
+use super::sweep::Sweep;
 use crate::compile::{Catalog, CompileReport, Constant, Op, compile, program_text};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
@@ -16,6 +17,7 @@ use crate::surface::{CellBox, Side};
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(super) roots: Roots,
+    pub(super) sweep: Sweep,
     /// What was counted since the scratch was made.
     pub counters: Counters,
 }
@@ -107,7 +109,7 @@ impl Tracer {
         let prepared = Prepared::new(ray, &self.bounds);
         let (start, end) = (prepared.inner(0.0), prepared.inner(end));
         let hit = self.bodies[body].first_hit(&self.catalog, &prepared, (start, end), scratch);
-        hit.and_then(|hit| prepared.outer_hit(hit))
+        hit.and_then(|hit| prepared.outer_hit_ahead(hit))
     }
 
     /// Whether the point is in the solid. Points of the surface are in or out as half-open intervals have it.
@@ -169,7 +171,7 @@ impl Tracer {
 
     /// Where a box lies with respect to the solid. `Outside` and `Inside` are certain; `Crossing` may be either.
     pub fn classify_box(&self, bounds: &Bounds) -> Side {
-        let cell = CellBox { center: bounds.center(), half: bounds.size() * 0.5 };
+        let cell = CellBox::new(bounds.center(), bounds.size() * 0.5);
         let mut result = Side::Outside;
         for body in &self.bodies {
             match body.classify(&self.catalog, &cell) {

@@ -52,7 +52,7 @@ impl Body for Tracer {
     }
 
     fn narrow(&self, around: &Programs, bounds: &Bounds) -> Option<Programs> {
-        let cell = CellBox { center: bounds.center(), half: bounds.size() * 0.5 };
+        let cell = CellBox::new(bounds.center(), bounds.size() * 0.5);
         let mut simplifier = Simplifier::default();
         let mut left = Vec::new();
         for program in &around.0 {
