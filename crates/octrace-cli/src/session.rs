@@ -33,6 +33,11 @@ impl Session {
         (Exec { threads, cancel: self.interrupt.token(), progress }, self.interrupt.listen())
     }
 
+    /// The same for work that is too short for a progress bar.
+    pub fn silent_exec(&self) -> (Exec, Listening) {
+        (Exec { threads: 0, cancel: self.interrupt.token(), progress: Arc::new(Silent) }, self.interrupt.listen())
+    }
+
     /// While the value lives, people who wait see what for.
     pub fn busy(&self, with: &'static str) -> Option<Spinner> {
         (self.show == Show::All).then(|| Spinner::start(with))

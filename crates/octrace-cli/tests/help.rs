@@ -13,6 +13,7 @@ fn help_of_every_command() {
         ("check", &["check", "--help"]),
         ("measure", &["measure", "--help"]),
         ("inspect", &["inspect", "--help"]),
+        ("figures", &["figures", "--help"]),
     ] {
         let run = folder.run(words).expect(0);
         insta::with_settings!({ omit_expression => true }, {

@@ -1,11 +1,12 @@
 //! One file per command.
 
 mod check;
+mod figures;
 mod inspect;
 mod measure;
 mod render;
 
-use crate::args::{CheckArgs, Command, InspectArgs, MeasureArgs, RenderArgs};
+use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs};
 use crate::diagnostics::Show;
 use crate::failure::Failure;
 use crate::output::say_error;
@@ -16,13 +17,15 @@ pub fn run(command: &Command) -> u8 {
     let (Command::Render(RenderArgs { quiet, .. })
     | Command::Check(CheckArgs { quiet, .. })
     | Command::Measure(MeasureArgs { quiet, .. })
-    | Command::Inspect(InspectArgs { quiet, .. })) = command;
+    | Command::Inspect(InspectArgs { quiet, .. })
+    | Command::Figures(FiguresArgs { quiet, .. })) = command;
     let session = Session::start(if *quiet { Show::Errors } else { Show::All });
     let result = match command {
         Command::Render(args) => render::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Measure(args) => measure::run(args, &session),
         Command::Inspect(args) => inspect::run(args, &session),
+        Command::Figures(args) => figures::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
     match failure {
