@@ -4,7 +4,7 @@
 use crate::framing::{Framing, ProjectionKind};
 use crate::input;
 use crate::picture::BitDepth;
-use crate::study::{self, Depth, SceneNames};
+use crate::study::StudyArgs;
 use crate::values::{self, Pixel, Size, Viewpoint};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
@@ -57,6 +57,11 @@ Examples:
   octrace study bracket.csg --out bracket.html
   octrace study bracket.csg --traversals bresenham,samet --leaf-primitives 4,6,8 --octree-depth auto,7";
 
+const FIGURES_EXAMPLES: &str = "\
+Examples:
+  octrace figures -o figures
+  octrace figures bracket.csg -o figures --pixel 512,300 --slice 2.5";
+
 /// Exact ray tracing of CSG solids, straight from the CSG tree, with no meshing.
 #[derive(Debug, Parser)]
 #[command(name = "octrace", version, after_help = EXIT_CODES, max_term_width = 100)]
@@ -102,6 +107,9 @@ pub enum Command {
     /// Measure the ways to walk an octree side by side, and find the settings that suit a model
     #[command(after_help = STUDY_EXAMPLES)]
     Study(StudyArgs),
+    /// Draw how a solid is traced: tree, spans, rays, octree, as SVG files
+    #[command(after_help = FIGURES_EXAMPLES)]
+    Figures(FiguresArgs),
 }
 
 /// How files are read.
@@ -283,22 +291,30 @@ pub struct InspectArgs {
     pub quiet: bool,
 }
 
-/// Arguments of `octrace study`.
+/// Arguments of `octrace figures`.
 #[derive(Debug, Args)]
-pub struct StudyArgs {
-    /// The files to study: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input
-    /// [default: scenes that come with the program]
-    #[arg(value_name = "FILE")]
-    pub files: Vec<PathBuf>,
-    /// Where the report goes, one HTML page; - for standard output
-    #[arg(short, long, value_name = "FILE", default_value = "study.html")]
-    pub out: PathBuf,
-    /// Where all figures go, as JSON; - for standard output
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-    /// What is tried, and how often.
+pub struct FiguresArgs {
+    /// The file to draw figures of: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input [default: a
+    /// built-in example]
+    pub file: Option<PathBuf>,
+    /// The folder for the figures; it is made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The pixel whose rays are drawn, counted from 0 at the upper left [default: the middle one]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub pixel: Option<Pixel>,
+    /// The height of the slice through the octree [default: through its middle]
+    #[arg(long, value_name = "Z", value_parser = values::finite, allow_hyphen_values = true)]
+    pub slice: Option<f64>,
+    /// How often the cells of the octree that is drawn are divided at most
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = values::count(0..=7))]
+    pub octree_depth: u32,
+    /// How many different surfaces of primitives a cell of it may hold without being divided
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = values::count(1..=64))]
+    pub leaf_primitives: u32,
+    /// Which picture the pixel belongs to.
     #[command(flatten)]
-    pub trials: TrialArgs,
+    pub view: ViewArgs,
     /// How files are read.
     #[command(flatten)]
     pub read: ReadArgs,
@@ -307,33 +323,11 @@ pub struct StudyArgs {
     pub quiet: bool,
 }
 
-/// What a study tries, and how often. Lists are separated by commas.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "What is tried")]
-pub struct TrialArgs {
-    /// Less of everything: done in half a minute
-    #[arg(long)]
-    pub quick: bool,
-    /// Scenes that come with the program, by name, or by family: balls, copies, chain
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = study::select)]
-    pub scenes: Vec<SceneNames>,
-    /// How rays walk the octree [default: every way]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
-    pub traversals: Vec<TraversalKind>,
-    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each family,
-    /// values from 1 to 24; else render's default]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::count(1..=64))]
-    pub leaf_primitives: Vec<u32>,
-    /// How often cells are divided at most; `auto` leaves it to the expected cost of rays [default: for files and one
-    /// scene of each family, auto and depths about that; else auto]
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
-    pub octree_depth: Vec<Depth>,
-    /// Rounds of timing, in each of which everything has its turn [default: 5, or 3 with --quick]
-    #[arg(long, value_name = "N", value_parser = values::count(1..=1000))]
-    pub repeat: Option<u32>,
-    /// Width and height of the pictures in pixels, one ray each [default: 320x240, or 96x72 with --quick]
-    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = study_size)]
-    pub size: Option<Size>,
+impl FiguresArgs {
+    /// How the octree that is drawn is built.
+    pub fn octree(&self) -> BuildOptions {
+        BuildOptions { leaf_surfaces: self.leaf_primitives as usize, depth: Some(self.octree_depth) }
+    }
 }
 
 /// How statistics are written.
@@ -383,27 +377,6 @@ impl TraceArgs {
     }
 }
 
-impl TrialArgs {
-    /// What is to be tried.
-    pub fn plan(&self) -> study::Plan {
-        let usual = if self.quick {
-            (3, Size { width_px: 96, height_px: 72 })
-        } else {
-            (5, Size { width_px: 320, height_px: 240 })
-        };
-        let size = self.size.unwrap_or(usual.1);
-        let some = |list: &[u32]| (!list.is_empty()).then(|| list.iter().map(|&n| n as usize).collect());
-        study::Plan {
-            size_px: (size.width_px, size.height_px),
-            repeat: self.repeat.unwrap_or(usual.0),
-            traversals: if self.traversals.is_empty() { TraversalKind::ALL.to_vec() } else { self.traversals.clone() },
-            leaf_primitives: some(&self.leaf_primitives),
-            depths: (!self.octree_depth.is_empty()).then(|| self.octree_depth.clone()),
-            quick: self.quick,
-        }
-    }
-}
-
 impl LookArgs {
     /// The background asked for.
     pub fn background(&self) -> Background {
@@ -418,16 +391,6 @@ fn background(text: &str) -> Result<Background, String> {
     }
 }
 
-/// A study keeps every ray and every hit of a picture.
-fn study_size(text: &str) -> Result<Size, String> {
-    const MOST_PIXELS: u32 = 1 << 22;
-    let size: Size = text.parse()?;
-    if size.width_px.saturating_mul(size.height_px) > MOST_PIXELS {
-        return Err(format!("for a study {MOST_PIXELS} pixels (2048x2048) are the most, and far fewer do"));
-    }
-    Ok(size)
-}
-
 fn bit_depth(text: &str) -> Result<BitDepth, String> {
     match text {
         "8" => Ok(BitDepth::Eight),
@@ -437,7 +400,7 @@ fn bit_depth(text: &str) -> Result<BitDepth, String> {
 }
 
 /// One of `names`, which `T` can parse; `--help` lists them.
-fn names<T>(names: impl IntoIterator<Item = &'static str>) -> impl TypedValueParser<Value = T>
+pub fn names<T>(names: impl IntoIterator<Item = &'static str>) -> impl TypedValueParser<Value = T>
 where
     T: FromStr<Err: Debug> + Clone + Send + Sync + 'static,
 {

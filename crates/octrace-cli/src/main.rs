@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod diagnostics;
 mod failure;
+mod figures;
 mod framing;
 mod input;
 mod interrupt;

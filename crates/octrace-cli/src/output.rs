@@ -78,6 +78,38 @@ impl Destination {
     }
 }
 
+/// A folder for several results at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Checks that files can be written into the folder at `path`, or that it can be made, without leaving a trace.
+    pub fn new(path: &Path) -> Result<Self, Failure> {
+        let existing = if path.exists() { path } else { folder_of(path) };
+        if !existing.is_dir() {
+            let why = if path.exists() { "it is not a folder" } else { "the folder around it is missing" };
+            return Err(Failure::File { verb: "write", what: path.display().to_string(), why: why.into() });
+        }
+        match tempfile::tempfile_in(existing) {
+            Ok(_) => Ok(Self(path.to_owned())),
+            Err(e) => Err(Failure::file("write", path, &e)),
+        }
+    }
+
+    /// Writes the files, each completely or not at all, and none if one of them cannot be written to.
+    pub fn write(&self, files: &[(&str, &[u8])], interrupt: &Interrupt) -> Result<(), Failure> {
+        if interrupt.happened() {
+            return Err(Failure::Interrupted);
+        }
+        if !self.0.exists() {
+            fs::create_dir(&self.0).map_err(|e| Failure::file("write", &self.0, &e))?;
+        }
+        let destinations: Vec<Destination> =
+            files.iter().map(|(name, _)| Destination::new(&self.0.join(name))).collect::<Result<_, Failure>>()?;
+        std::iter::zip(destinations, files).try_for_each(|(file, (_, bytes))| file.write(bytes, interrupt))
+    }
+}
+
 /// Writes data to standard output, at once.
 pub fn write_stdout(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
@@ -174,6 +206,22 @@ mod tests {
         assert!(refusal(folder.path()).ends_with("it is a folder"));
         assert!(refusal(&folder.path().join("none/a.png")).contains("there is no folder"));
         assert!(refusal(&folder.path().join("new/")).contains("names a folder"));
+    }
+
+    #[test]
+    fn a_folder_is_made_when_there_is_something_to_write() {
+        let around = tempfile::tempdir().unwrap();
+        let path = around.path().join("new");
+        let folder = Folder::new(&path).unwrap();
+        assert!(files_in(around.path()).is_empty());
+        folder.write(&[("a.svg", b"a"), ("b.svg", b"b")], &Interrupt::never()).unwrap();
+        assert_eq!(files_in(&path), ["a.svg", "b.svg"]);
+        fs::create_dir(path.join("c.svg")).unwrap();
+        assert!(folder.write(&[("a.svg", b"new"), ("c.svg", b"c")], &Interrupt::never()).is_err());
+        assert_eq!(fs::read(path.join("a.svg")).unwrap(), b"a", "all or nothing");
+        let refusal = |path: &Path| Folder::new(path).unwrap_err().to_string();
+        assert!(refusal(&path.join("a.svg")).contains("it is not a folder"));
+        assert!(refusal(&path.join("no/new")).contains("is missing"));
     }
 
     #[cfg(unix)]

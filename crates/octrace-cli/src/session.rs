@@ -30,6 +30,11 @@ impl Session {
         (Exec { threads, cancel: self.interrupt.token(), progress }, self.interrupt.listen())
     }
 
+    /// The same for work that is too short for a progress bar.
+    pub fn silent_exec(&self) -> (Exec, Listening) {
+        (Exec { threads: 0, cancel: self.interrupt.token(), progress: Arc::new(Silent) }, self.interrupt.listen())
+    }
+
     /// Shows the stages of long work to people; before the first one begins, what stands in `before`.
     pub fn progress(&self, before: &'static str) -> Arc<dyn Progress> {
         match self.show {

@@ -69,7 +69,8 @@ fn walk(solid: &Solid, mut visit: impl FnMut(usize, &Node)) {
     }
 }
 
-fn name(node: &Node) -> &'static str {
+/// The kind of a node.
+pub fn name(node: &Node) -> &'static str {
     match node {
         Node::Empty => "empty",
         Node::Primitive(primitive) => match primitive {

@@ -161,6 +161,11 @@ pub fn count(limits: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String
     }
 }
 
+/// A number.
+pub fn finite(text: &str) -> Result<f64, String> {
+    text.trim().parse().ok().filter(|v: &f64| v.is_finite()).ok_or_else(|| "write a number, as in 2.5".into())
+}
+
 /// A number that is `0 <= x < 1`: a tolerance relative to the model's size, possibly none.
 pub fn relative_or_zero(text: &str) -> Result<f64, String> {
     relative(text, |v| (0.0..1.0).contains(&v)).ok_or_else(|| "write a number from 0 to below 1, as in 2e-6".into())

@@ -5,6 +5,7 @@
 //! (`memory`), settings are recommended (`advice`); out comes plain data (`results`), which `report` turns into a page.
 
 mod advice;
+mod args;
 mod context;
 mod machine;
 mod measure;
@@ -19,11 +20,12 @@ mod statistics;
 mod survey;
 mod walk;
 
+pub use args::StudyArgs;
 pub use context::Context;
 pub use machine::{Machine, now};
 pub use measure::study_scene;
 pub use memory::weigh;
-pub use plan::{Depth, Plan};
+pub use plan::Plan;
 pub use report::page;
 pub use results::{Checked, SceneReport, Settings, Study};
-pub use scenes::{SceneNames, StudyScene, built_in, default_names, select};
+pub use scenes::{StudyScene, built_in, default_names};

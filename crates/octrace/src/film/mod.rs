@@ -4,4 +4,4 @@ mod buffer;
 mod render;
 
 pub use buffer::Film;
-pub use render::{Background, RenderStats, View, render};
+pub use render::{Background, RenderStats, View, ray_tree, render};

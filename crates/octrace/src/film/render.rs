@@ -3,7 +3,7 @@
 use super::Film;
 use crate::exec::{Cancelled, Exec};
 use crate::model::{Camera, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
-use crate::shade::{Lighting, RayCounts, Whitted};
+use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Whitted};
 use crate::trace::{Counters, Scratch, Tracer};
 use rayon::prelude::*;
 use std::ops::AddAssign;
@@ -52,17 +52,7 @@ const TILE_PX: u32 = 16;
 /// # Errors
 /// If `exec` is cancelled.
 pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Result<(Film, RenderStats), Cancelled> {
-    let scene_background = scene.background.unwrap_or(DEFAULT_BACKGROUND);
-    let lighting = Lighting {
-        lights: if scene.lights.is_empty() { default_lights(&view.camera) } else { scene.lights.clone() },
-        ambient: scene.ambient.unwrap_or(DEFAULT_AMBIENT),
-        background: match view.background {
-            Background::Color(color) => color,
-            Background::Scene | Background::Transparent => scene_background,
-        },
-        transparent: view.background == Background::Transparent,
-    };
-    let integrator = Whitted::new(scene, tracer, lighting, scene.bodies().ior, view.max_bounces);
+    let integrator = integrator(scene, tracer, view);
     let (width, height) = (view.width_px, view.height_px);
     let tiles_across = width.div_ceil(TILE_PX);
     let tiles = tiles_across * height.div_ceil(TILE_PX);
@@ -95,6 +85,29 @@ pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Resul
     Ok((Film::new(width, height, pixels), stats))
 }
 
+/// Every ray that is traced for the middle of pixel `(x, y)`, and the light that comes along it.
+pub fn ray_tree(scene: &Scene, tracer: &Tracer, view: &View, (x, y): (u32, u32)) -> RayTree {
+    let ray = view.camera.rays(view.width_px, view.height_px).ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let mut recorder = Recorder::default();
+    let integrator = integrator(scene, tracer, view);
+    integrator.camera_ray(&ray, &mut Scratch::default(), &mut RayCounts::default(), &mut recorder);
+    recorder.tree
+}
+
+fn integrator<'a>(scene: &'a Scene, tracer: &'a Tracer, view: &View) -> Whitted<'a> {
+    let scene_background = scene.background.unwrap_or(DEFAULT_BACKGROUND);
+    let lighting = Lighting {
+        lights: if scene.lights.is_empty() { default_lights(&view.camera) } else { scene.lights.clone() },
+        ambient: scene.ambient.unwrap_or(DEFAULT_AMBIENT),
+        background: match view.background {
+            Background::Color(color) => color,
+            Background::Scene | Background::Transparent => scene_background,
+        },
+        transparent: view.background == Background::Transparent,
+    };
+    Whitted::new(scene, tracer, lighting, scene.bodies().ior, view.max_bounces)
+}
+
 impl AddAssign for RenderStats {
     fn add_assign(&mut self, o: Self) {
         self.rays += o.rays;
@@ -123,7 +136,7 @@ impl Tile {
                 for sample in 0..samples {
                     let (dx, dy) = sample_place(sample, samples);
                     let ray = rays.ray(f64::from(x) + dx, f64::from(y) + dy);
-                    let seen = integrator.camera_ray(&ray, scratch, &mut stats.rays);
+                    let seen = integrator.camera_ray(&ray, scratch, &mut stats.rays, &mut ());
                     color += seen.color;
                     alpha += seen.alpha;
                 }

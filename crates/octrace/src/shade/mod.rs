@@ -1,6 +1,9 @@
 //! From hits to light.
 
+mod ray_tree;
 mod whitted;
 
+pub(crate) use ray_tree::Recorder;
+pub use ray_tree::{RayKind, RayTree, TracedRay};
 pub use whitted::RayCounts;
 pub(crate) use whitted::{Lighting, Whitted};

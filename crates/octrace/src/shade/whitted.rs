@@ -8,6 +8,7 @@
 //! along the reflected ray and `It` along the refracted one; `C` is the body colour. Where refraction is impossible (total
 //! internal reflection), its share goes to the reflection.
 
+use super::ray_tree::{RayKind, Watch};
 use crate::geom::{Hit, Ray, Vec3};
 use crate::model::{Light, Material, Rgb, Scene};
 use crate::trace::{Scratch, SurfacePoint, Tracer};
@@ -119,8 +120,14 @@ impl<'a> Whitted<'a> {
         Self { scene, tracer, lighting, body_ior, max_bounces, size }
     }
 
-    /// Light along a camera ray.
-    pub(crate) fn camera_ray(&self, ray: &Ray, scratch: &mut Scratch, counts: &mut RayCounts) -> Seen {
+    /// Light along a camera ray; `watch` sees every ray that is traced for it.
+    pub(crate) fn camera_ray(
+        &self,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        counts: &mut RayCounts,
+        watch: &mut impl Watch,
+    ) -> Seen {
         counts.camera += 1;
         let mut media = Media::default();
         let may_start_inside = self.tracer.is_unbounded() || self.tracer.bounds().contains(ray.origin);
@@ -131,7 +138,10 @@ impl<'a> Whitted<'a> {
                 }
             }
         }
-        Path { integrator: self, scratch, counts }.radiance(ray, media, 0, 1.0, true)
+        watch.sets_out(RayKind::Camera, ray, Rgb::WHITE);
+        let seen = Path { integrator: self, scratch, counts, watch }.radiance(ray, media, 0, 1.0, true);
+        watch.returns(seen.color);
+        seen
     }
 
     fn ior(&self, media: &Media) -> f64 {
@@ -140,13 +150,14 @@ impl<'a> Whitted<'a> {
 }
 
 /// One tree of rays.
-struct Path<'a, 'b> {
+struct Path<'a, 'b, W> {
     integrator: &'b Whitted<'a>,
     scratch: &'b mut Scratch,
     counts: &'b mut RayCounts,
+    watch: &'b mut W,
 }
 
-impl Path<'_, '_> {
+impl<W: Watch> Path<'_, '_, W> {
     /// `direct` says that the ray comes from the camera, if through glass.
     fn radiance(&mut self, ray: &Ray, media: Media, bounce: u32, weight: f64, direct: bool) -> Seen {
         let Whitted { tracer, lighting, .. } = self.integrator;
@@ -157,6 +168,7 @@ impl Path<'_, '_> {
             };
         };
         let point = tracer.surface_point(ray, &hit);
+        self.watch.meets(&hit, &point);
         let material = self.integrator.scene.material(point.part);
         let toward_viewer = -ray.direction.normalized().unwrap_or(Vec3::Z);
         let normal = if point.normal.dot(toward_viewer) < 0.0 { -point.normal } else { point.normal };
@@ -187,15 +199,19 @@ impl Path<'_, '_> {
             let share = weight * filter.max_component();
             if bounce < self.integrator.max_bounces && share >= LEAST_WEIGHT {
                 self.counts.refracted += 1;
+                self.watch.sets_out(RayKind::Refracted, &refracted, filter);
                 let seen = self.radiance(&refracted, beyond, bounce + 1, share, direct);
+                self.watch.returns(seen.color);
                 color += seen.color * filter;
                 alpha -= material.kt * (1.0 - seen.alpha);
             }
         }
         if kr > 0.0 && bounce < self.integrator.max_bounces && weight * kr >= LEAST_WEIGHT {
             self.counts.reflected += 1;
-            let direction = mirror(-toward_viewer, normal);
-            let seen = self.radiance(&Ray { origin: above, direction }, media, bounce + 1, weight * kr, false);
+            let reflected = Ray { origin: above, direction: mirror(-toward_viewer, normal) };
+            self.watch.sets_out(RayKind::Reflected, &reflected, Rgb::gray(kr));
+            let seen = self.radiance(&reflected, media, bounce + 1, weight * kr, false);
+            self.watch.returns(seen.color);
             color += seen.color * kr;
         }
         Seen { color, alpha: alpha.clamp(0.0, 1.0) }
@@ -205,7 +221,7 @@ impl Path<'_, '_> {
     fn local(&mut self, material: &Material, above: Vec3, normal: Vec3, toward_viewer: Vec3) -> Rgb {
         let Whitted { lighting, .. } = self.integrator;
         let mut sum = material.color * lighting.ambient * material.ka;
-        for light in &lighting.lights {
+        for (number, light) in lighting.lights.iter().enumerate() {
             let (to_light, reach, intensity) = match *light {
                 Light::Point { position, intensity } => (position - above, 1.0, intensity),
                 Light::Directional { direction, intensity } => (-direction, f64::INFINITY, intensity),
@@ -221,7 +237,11 @@ impl Path<'_, '_> {
             if factor.max_component() <= 0.0 {
                 continue;
             }
-            let arriving = intensity * self.unshadowed(&Ray { origin: above, direction: to_light }, reach);
+            let shadow = Ray { origin: above, direction: to_light };
+            self.watch.sets_out(RayKind::Shadow { light: number }, &shadow, intensity * factor);
+            let share = self.unshadowed(&shadow, reach);
+            self.watch.returns(share);
+            let arriving = intensity * share;
             sum += arriving * factor;
         }
         sum
@@ -239,6 +259,7 @@ impl Path<'_, '_> {
                 return share;
             };
             let point = tracer.surface_point(&ray, &hit);
+            self.watch.meets(&hit, &point);
             share = share * scene.material(point.part).transmission();
             if share.max_component() < LEAST_WEIGHT {
                 return Rgb::BLACK;

@@ -2,6 +2,7 @@
 
 mod body;
 mod canonical;
+mod cells;
 mod combine;
 mod march;
 mod options;
@@ -12,6 +13,7 @@ mod stats;
 mod sweep;
 mod tracer;
 
+pub use cells::OctreeCell;
 pub use options::{Accel, TracerOptions, UnknownAccel};
 pub use report::{RayReport, VisitedCell};
 pub use stats::{Counters, TracerStats};

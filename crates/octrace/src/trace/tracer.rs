@@ -192,7 +192,7 @@ impl Tracer {
     }
 
     /// What the programs refer to.
-    pub(crate) fn catalog(&self) -> &Catalog {
+    pub fn catalog(&self) -> &Catalog {
         &self.catalog
     }
 

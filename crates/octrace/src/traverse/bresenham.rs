@@ -1,5 +1,5 @@
 //! Multi-resolution Bresenham in space [Comba-Persiano, §4.2]: Bresenham's line on cells of different size, in integers
-//! throughout the walk.
+//! throughout the walk. The plane form, which is easier to follow and can be drawn, is in `traverse::plane`.
 //!
 //! The ray is put on a lattice of 2^31 units along the root's edge. Axes along which it runs downwards are mirrored, so
 //! that every direction part is positive (a vanishing one becomes one unit). With `r` the vector from the ray to the cell's

@@ -10,6 +10,7 @@ mod fujimoto;
 mod glassner;
 mod lattice;
 mod parametric;
+pub mod plane;
 mod samet;
 #[cfg(test)]
 mod tests;
