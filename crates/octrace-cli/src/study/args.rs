@@ -45,8 +45,8 @@ pub struct TrialArgs {
     /// How rays walk the octree [default: every way]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
     pub traversals: Vec<TraversalKind>,
-    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each family,
-    /// values from 1 to 24; else render's default]
+    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each
+    /// family, values from 1 to 24; else render's default]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::count(1..=64))]
     pub leaf_primitives: Vec<u32>,
     /// How often cells are divided at most; `auto` leaves it to the expected cost of rays [default: for files and one

@@ -21,7 +21,9 @@ pub fn findings(study: &Study) -> Markup {
     html! {
         h2 id="findings" { "Findings" }
         (equality(study))
-        p.quiet { "Numbers are medians, over the scenes where there are several; in brackets the least and the greatest." }
+        p.quiet {
+            "Numbers are medians, over the scenes where there are several; in brackets the least and the greatest."
+        }
         ul { @for sentence in &sentences { li { (sentence) } } }
     }
 }
@@ -38,8 +40,8 @@ fn equality(study: &Study) -> Markup {
             }
         } @else {
             p.defect {
-                strong { (whole(c.differing)) " of " (whole(c.hits)) " hits differ" } ", and " (whole(c.leaks)) " rays met \
-                cells that contradict each other. That is a defect of octrace; please report it. Scenes concerned: "
+                strong { (whole(c.differing)) " of " (whole(c.hits)) " hits differ" } ", and " (whole(c.leaks)) " rays \
+                met cells that contradict each other. That is a defect of octrace; please report it. Scenes concerned: "
                 (defective(study)) "."
             }
         }
@@ -130,7 +132,8 @@ fn memory(study: &Study) -> Option<Markup> {
     let ratio = Spread::of(rows.map(|row| row.grid_over_tree));
     Some(html! {
         "With " (deepest) " levels and one surface a leaf, " code { "fujimoto" } "’s grid takes "
-        strong { (number(ratio.median)) " times" } " the memory of " code { "bresenham" } "’s tree with the same smallest cell"
+        strong { (number(ratio.median)) " times" } " the memory of "
+        code { "bresenham" } "’s tree with the same smallest cell"
         (range(&ratio)) "."
     })
 }
@@ -151,8 +154,8 @@ fn stop_rule(study: &Study) -> Option<Markup> {
     let ratio = Spread::of(fixed);
     Some(html! {
         "When to stop cutting: the best of the fixed values of p and depth that were tried on a scene takes "
-        strong { (number(ratio.median)) " times" } " as long" (range(&ratio)) " as the default settings, which cut cells by the \
-        expected cost of rays."
+        strong { (number(ratio.median)) " times" } " as long" (range(&ratio)) " as the default settings, which cut \
+        cells by the expected cost of rays."
     })
 }
 
@@ -169,7 +172,8 @@ fn settings(study: &Study) -> Option<Markup> {
             @if i > 0 { "; " }
             (scene.name) ": "
             @if advice.is_worth_it {
-                code { (advice.options) } " is " strong { (number(advice.speedup.median)) " times" } " as fast as the default"
+                code { (advice.options) } " is "
+                strong { (number(advice.speedup.median)) " times" } " as fast as the default"
             } @else {
                 "the default settings do"
             }
