@@ -14,6 +14,7 @@ mod progress;
 mod rounding;
 mod session;
 mod stats;
+mod study;
 mod tree;
 mod values;
 

@@ -25,7 +25,7 @@ impl Destination {
     pub fn new(path: &Path) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return if io::stdout().is_terminal() {
-                Err(Failure::Usage("a picture on a terminal is of no use: redirect it, or name a file with -o".into()))
+                Err(Failure::Usage("on a terminal that is of no use: redirect standard output, or name a file".into()))
             } else {
                 Ok(Self::Stdout)
             };

@@ -25,10 +25,7 @@ impl Session {
 
     /// How the core is to work. While the second value lives, Ctrl-C is left to the core.
     pub fn exec(&self, args: &TraceArgs) -> (Exec, Listening) {
-        let progress: Arc<dyn Progress> = match self.show {
-            Show::All => Arc::new(Bar::new("compiling")),
-            Show::Errors => Arc::new(Silent),
-        };
+        let progress = self.progress("compiling");
         let threads = args.threads.unwrap_or(0) as usize;
         (Exec { threads, cancel: self.interrupt.token(), progress }, self.interrupt.listen())
     }
@@ -36,6 +33,14 @@ impl Session {
     /// The same for work that is too short for a progress bar.
     pub fn silent_exec(&self) -> (Exec, Listening) {
         (Exec { threads: 0, cancel: self.interrupt.token(), progress: Arc::new(Silent) }, self.interrupt.listen())
+    }
+
+    /// Shows the stages of long work to people; before the first one begins, what stands in `before`.
+    pub fn progress(&self, before: &'static str) -> Arc<dyn Progress> {
+        match self.show {
+            Show::All => Arc::new(Bar::new(before)),
+            Show::Errors => Arc::new(Silent),
+        }
     }
 
     /// While the value lives, people who wait see what for.

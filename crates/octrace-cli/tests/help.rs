@@ -14,6 +14,7 @@ fn help_of_every_command() {
         ("measure", &["measure", "--help"]),
         ("inspect", &["inspect", "--help"]),
         ("figures", &["figures", "--help"]),
+        ("study", &["study", "--help"]),
     ] {
         let run = folder.run(words).expect(0);
         insta::with_settings!({ omit_expression => true }, {

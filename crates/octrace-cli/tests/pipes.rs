@@ -58,6 +58,26 @@ fn ctrl_c_while_rendering_leaves_nothing_behind() {
     }
 }
 
+/// The signal is sent when the first of two scenes is done; the second, which takes far longer to build, takes minutes.
+#[test]
+fn ctrl_c_while_studying_leaves_nothing_behind() {
+    let endless = ["--scenes=chain-4,balls-100000", "--traversals=samet", "--size=8x6", "--repeat=300"];
+    let folder = Folder::with(&[("study.html", "old")]);
+    let mut child = folder.command(&[&["study", "--json=study.json"], &endless[..]].concat()).spawn().unwrap();
+    let mut stderr = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.contains("1 of 2: chain-4") {
+        line.clear();
+        assert_ne!(stderr.read_line(&mut line).unwrap(), 0, "it ended early");
+    }
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    let mut rest = String::new();
+    stderr.read_to_string(&mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{rest}");
+    assert_eq!(folder.names(), ["study.html"]);
+    assert_eq!(std::fs::read(folder.path("study.html")).unwrap(), b"old");
+}
+
 /// While it waits for standard input there is nothing to tidy up: it just ends.
 #[test]
 fn ctrl_c_while_reading() {

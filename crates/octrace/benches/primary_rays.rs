@@ -4,38 +4,13 @@
 //! `cargo bench -p octrace --bench primary_rays`; rows with certain words only: the same with `-- holes parametric`.
 
 use octrace::exec::Exec;
-use octrace::model::frame_all;
+use octrace::model::{families, frame_all};
 use octrace::trace::Scratch;
 use octrace::traverse::TraversalKind;
 use octrace::{Accel, Projection, Solid, Tracer, TracerOptions};
 use std::time::Instant;
 
 const SIZE_PX: (u32, u32) = (1024, 768);
-
-/// Cube and sphere minus three cylinders, about the origin, 2 wide.
-fn classic() -> Solid {
-    let bar = Solid::cylinder().translate([0.0, 0.0, -0.5]).scale([0.6, 0.6, 3.0]);
-    let cube = Solid::block().translate([-0.5; 3]).scale([2.0; 3]);
-    let across = [bar.clone().rotate([90.0, 0.0, 0.0]), bar.clone().rotate([0.0, 90.0, 0.0])];
-    Solid::difference([cube & Solid::sphere().scale([1.35; 3]), bar].into_iter().chain(across))
-}
-
-/// The points of a cubic lattice with `n` along each edge.
-fn lattice(n: u32) -> impl Iterator<Item = [f64; 3]> {
-    (0..n * n * n).map(move |i| [i % n, i / n % n, i / n / n].map(f64::from))
-}
-
-/// A block of edge 10 minus 1,000 balls, which touch its faces from inside and out.
-fn holes() -> Solid {
-    let ball = |at: [f64; 3]| Solid::sphere().scale([0.45; 3]).translate(at.map(|c| c + 0.25));
-    Solid::difference([Solid::block().scale([10.0; 3])].into_iter().chain(lattice(10).map(ball)))
-}
-
-/// 10,000 copies of the classic in a square.
-fn copies() -> Solid {
-    let at = |i: u32| [f64::from(i % 100) * 3.0, f64::from(i / 100) * 3.0, 0.0];
-    Solid::union((0..10_000).map(|i| classic().translate(at(i))))
-}
 
 /// Traces every `skip`-th primary ray of a picture of everything and prints a row.
 fn run(name: &str, solid: &Solid, accel: Accel, traversal: TraversalKind, skip: usize) {
@@ -71,9 +46,12 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let is_wanted = |row: String| words.iter().all(|word| row.contains(word.as_str()));
     println!("scene    how            build s   Mrays/s  cells/r   tests/r    hit");
-    for (name, solid, skip_canonical) in
-        [("classic", classic(), Some(7)), ("holes", holes(), Some(997)), ("copies", copies(), None)]
-    {
+    let scenes = [
+        ("classic", families::classic(), Some(7)),
+        ("holes", families::balls(1_000), Some(997)),
+        ("copies", families::copies(10_000), None),
+    ];
+    for (name, solid, skip_canonical) in scenes {
         for traversal in TraversalKind::ALL.into_iter().filter(|kind| is_wanted(format!("{name} {kind}"))) {
             run(name, &solid, Accel::Octree, traversal, 1);
         }

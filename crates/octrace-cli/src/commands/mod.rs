@@ -5,8 +5,9 @@ mod figures;
 mod inspect;
 mod measure;
 mod render;
+mod study;
 
-use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs};
+use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs, StudyArgs};
 use crate::diagnostics::Show;
 use crate::failure::Failure;
 use crate::output::say_error;
@@ -18,7 +19,8 @@ pub fn run(command: &Command) -> u8 {
     | Command::Check(CheckArgs { quiet, .. })
     | Command::Measure(MeasureArgs { quiet, .. })
     | Command::Inspect(InspectArgs { quiet, .. })
-    | Command::Figures(FiguresArgs { quiet, .. })) = command;
+    | Command::Figures(FiguresArgs { quiet, .. })
+    | Command::Study(StudyArgs { quiet, .. })) = command;
     let session = Session::start(if *quiet { Show::Errors } else { Show::All });
     let result = match command {
         Command::Render(args) => render::run(args, &session),
@@ -26,6 +28,7 @@ pub fn run(command: &Command) -> u8 {
         Command::Measure(args) => measure::run(args, &session),
         Command::Inspect(args) => inspect::run(args, &session),
         Command::Figures(args) => figures::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
     match failure {

@@ -3,6 +3,7 @@
 mod bodies;
 mod camera;
 mod color;
+pub mod families;
 mod light;
 mod look;
 mod material;

@@ -46,7 +46,12 @@ impl Body {
 
     /// The octree, if there is one.
     pub fn octree(&self) -> Option<&Octree> {
-        self.octree.as_ref().map(|(octree, _)| octree)
+        self.octree_and_traversal().map(|(octree, _)| octree)
+    }
+
+    /// The octree and how it is walked, if there is one.
+    pub fn octree_and_traversal(&self) -> Option<(&Octree, &Traversal)> {
+        self.octree.as_ref().map(|(octree, traversal)| (octree, traversal))
     }
 
     /// The first crossing of the body's surface at `start < t <= end`.
@@ -128,8 +133,8 @@ impl Body {
             }
             return ControlFlow::Continue(());
         }
-        let accelerator = self.octree.as_ref().map(|(octree, traversal)| (octree, traversal));
-        let stop = March::new(catalog, &ray.ray, scratch).along(&self.program, accelerator, (start, end), on_hit);
+        let mut march = March::new(catalog, &ray.ray, scratch);
+        let stop = march.along(&self.program, self.octree_and_traversal(), (start, end), on_hit);
         if let ControlFlow::Break(Stop::Leak) = stop {
             scratch.counters.leaks += 1;
         }

@@ -11,7 +11,9 @@ use crate::compile::{Catalog, CompileReport, Constant, Op, compile, program_text
 use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
 use crate::model::{PartId, Solid};
+use crate::octree::Octree;
 use crate::surface::{CellBox, Side};
+use crate::traverse::Traversal;
 
 /// Scratch memory of a worker, and what it counted.
 #[derive(Debug, Default)]
@@ -181,6 +183,12 @@ impl Tracer {
             }
         }
         result
+    }
+
+    /// The octree of each body that has one, and how it is walked: for whoever wants to look at or to time the walk by
+    /// itself.
+    pub fn octrees(&self) -> impl Iterator<Item = (&Octree, &Traversal)> {
+        self.bodies.iter().filter_map(Body::octree_and_traversal)
     }
 
     /// What the programs refer to.

@@ -74,6 +74,12 @@ impl TraversalKind {
         }
     }
 
+    /// Whether it walks the tree of cells itself. Otherwise its tables stand for the tree, of which it needs nothing more
+    /// than the leaves' programs.
+    pub const fn needs_tree(self) -> bool {
+        !matches!(self, Self::Glassner | Self::Fujimoto)
+    }
+
     /// The deepest octree that it can walk.
     pub const fn max_depth(self) -> u32 {
         match self {

@@ -1,6 +1,12 @@
 //! The arguments of every command: what clap makes of the command line. Single values are checked here (by the parsers
 //! in `values`), so that the commands meet nothing but plain, sound data.
 
+mod figures;
+mod study;
+
+pub use figures::FiguresArgs;
+pub use study::StudyArgs;
+
 use crate::framing::{Framing, ProjectionKind};
 use crate::input;
 use crate::picture::BitDepth;
@@ -49,11 +55,6 @@ Examples:
   octrace inspect bracket.csg --tree --program
   octrace inspect bracket.csg --size 640x480 --pixel 320,240";
 
-const FIGURES_EXAMPLES: &str = "\
-Examples:
-  octrace figures -o figures
-  octrace figures bracket.csg -o figures --pixel 512,300 --slice 2.5";
-
 /// Exact ray tracing of CSG solids, straight from the CSG tree, with no meshing.
 #[derive(Debug, Parser)]
 #[command(name = "octrace", version, after_help = EXIT_CODES, max_term_width = 100)]
@@ -97,8 +98,11 @@ pub enum Command {
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
     /// Draw how a solid is traced: tree, spans, rays, octree, as SVG files
-    #[command(after_help = FIGURES_EXAMPLES)]
+    #[command(after_help = figures::EXAMPLES)]
     Figures(FiguresArgs),
+    /// Measure the ways to walk an octree side by side, and find the settings that suit a model
+    #[command(after_help = study::EXAMPLES)]
+    Study(StudyArgs),
 }
 
 /// How files are read.
@@ -278,45 +282,6 @@ pub struct InspectArgs {
     /// Print nothing but errors and what was asked for
     #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
-}
-
-/// Arguments of `octrace figures`.
-#[derive(Debug, Args)]
-pub struct FiguresArgs {
-    /// The file to draw figures of: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input [default: a
-    /// built-in example]
-    pub file: Option<PathBuf>,
-    /// The folder for the figures; it is made if it is not there
-    #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
-    /// The pixel whose rays are drawn, counted from 0 at the upper left [default: the middle one]
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
-    pub pixel: Option<Pixel>,
-    /// The height of the slice through the octree [default: through its middle]
-    #[arg(long, value_name = "Z", value_parser = values::finite, allow_hyphen_values = true)]
-    pub slice: Option<f64>,
-    /// How often the cells of the octree that is drawn are divided at most
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = values::count(0..=7))]
-    pub octree_depth: u32,
-    /// How many different surfaces of primitives a cell of it may hold without being divided
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = values::count(1..=64))]
-    pub leaf_primitives: u32,
-    /// Which picture the pixel belongs to.
-    #[command(flatten)]
-    pub view: ViewArgs,
-    /// How files are read.
-    #[command(flatten)]
-    pub read: ReadArgs,
-    /// Print nothing but errors
-    #[arg(short, long, help_heading = "Messages")]
-    pub quiet: bool,
-}
-
-impl FiguresArgs {
-    /// How the octree that is drawn is built.
-    pub fn octree(&self) -> BuildOptions {
-        BuildOptions { leaf_surfaces: self.leaf_primitives as usize, depth: Some(self.octree_depth) }
-    }
 }
 
 /// How statistics are written.
