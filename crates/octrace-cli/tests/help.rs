@@ -13,8 +13,8 @@ fn help_of_every_command() {
         ("check", &["check", "--help"]),
         ("measure", &["measure", "--help"]),
         ("inspect", &["inspect", "--help"]),
-        ("study", &["study", "--help"]),
         ("figures", &["figures", "--help"]),
+        ("study", &["study", "--help"]),
     ] {
         let run = folder.run(words).expect(0);
         insta::with_settings!({ omit_expression => true }, {

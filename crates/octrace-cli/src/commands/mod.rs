@@ -7,12 +7,11 @@ mod measure;
 mod render;
 mod study;
 
-use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs};
+use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs, StudyArgs};
 use crate::diagnostics::Show;
 use crate::failure::Failure;
 use crate::output::say_error;
 use crate::session::Session;
-use crate::study::StudyArgs;
 
 /// Runs a command; the answer is the process's exit code.
 pub fn run(command: &Command) -> u8 {
@@ -20,16 +19,16 @@ pub fn run(command: &Command) -> u8 {
     | Command::Check(CheckArgs { quiet, .. })
     | Command::Measure(MeasureArgs { quiet, .. })
     | Command::Inspect(InspectArgs { quiet, .. })
-    | Command::Study(StudyArgs { quiet, .. })
-    | Command::Figures(FiguresArgs { quiet, .. })) = command;
+    | Command::Figures(FiguresArgs { quiet, .. })
+    | Command::Study(StudyArgs { quiet, .. })) = command;
     let session = Session::start(if *quiet { Show::Errors } else { Show::All });
     let result = match command {
         Command::Render(args) => render::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Measure(args) => measure::run(args, &session),
         Command::Inspect(args) => inspect::run(args, &session),
-        Command::Study(args) => study::run(args, &session),
         Command::Figures(args) => figures::run(args, &session),
+        Command::Study(args) => study::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
     match failure {

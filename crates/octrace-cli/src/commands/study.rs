@@ -1,11 +1,12 @@
 //! `octrace study`: the ways to walk an octree, measured side by side, in one page.
 
+use crate::args::StudyArgs;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::Destination;
 use crate::session::Session;
 use crate::stats::Stopwatch;
-use crate::study::{self, Checked, Context, Machine, Plan, SceneReport, Settings, Study, StudyArgs, StudyScene};
+use crate::study::{self, Checked, Context, Machine, Plan, SceneReport, Settings, Study, StudyScene};
 use octrace_read::Loaded;
 use std::path::Path;
 

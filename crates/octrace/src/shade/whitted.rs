@@ -63,8 +63,8 @@ pub(crate) struct Whitted<'a> {
     size: f64,
 }
 
-/// Rays that contribute less than this are not traced: half of what an 8-bit film can tell.
-const LEAST_WEIGHT: f64 = 1.0 / 512.0;
+/// Rays that contribute less than this are not traced: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
+const LEAST_WEIGHT: f64 = 1.0 / 8192.0;
 
 /// New rays start this far off their surface, relative to coordinates and distances: some 2^20 roundings, far more than a
 /// hit may be off, far less than one sees.

@@ -1,10 +1,15 @@
 //! The arguments of every command: what clap makes of the command line. Single values are checked here (by the parsers
 //! in `values`), so that the commands meet nothing but plain, sound data.
 
+mod figures;
+mod study;
+
+pub use figures::FiguresArgs;
+pub use study::StudyArgs;
+
 use crate::framing::{Framing, ProjectionKind};
 use crate::input;
 use crate::picture::BitDepth;
-use crate::study::StudyArgs;
 use crate::values::{self, Pixel, Size, Viewpoint};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue};
@@ -50,18 +55,6 @@ Examples:
   octrace inspect bracket.csg --tree --program
   octrace inspect bracket.csg --size 640x480 --pixel 320,240";
 
-const STUDY_EXAMPLES: &str = "\
-Examples:
-  octrace study
-  octrace study --quick --scenes classic,chain --json study.json
-  octrace study bracket.csg --out bracket.html
-  octrace study bracket.csg --traversals bresenham,samet --leaf-primitives 4,6,8 --octree-depth auto,7";
-
-const FIGURES_EXAMPLES: &str = "\
-Examples:
-  octrace figures -o figures
-  octrace figures bracket.csg -o figures --pixel 512,300 --slice 2.5";
-
 /// Exact ray tracing of CSG solids, straight from the CSG tree, with no meshing.
 #[derive(Debug, Parser)]
 #[command(name = "octrace", version, after_help = EXIT_CODES, max_term_width = 100)]
@@ -104,12 +97,12 @@ pub enum Command {
     /// Show what octrace makes of a file: tree, program, octree, one pixel
     #[command(after_help = INSPECT_EXAMPLES)]
     Inspect(InspectArgs),
-    /// Measure the ways to walk an octree side by side, and find the settings that suit a model
-    #[command(after_help = STUDY_EXAMPLES)]
-    Study(StudyArgs),
     /// Draw how a solid is traced: tree, spans, rays, octree, as SVG files
-    #[command(after_help = FIGURES_EXAMPLES)]
+    #[command(after_help = figures::EXAMPLES)]
     Figures(FiguresArgs),
+    /// Measure the ways to walk an octree side by side, and find the settings that suit a model
+    #[command(after_help = study::EXAMPLES)]
+    Study(StudyArgs),
 }
 
 /// How files are read.
@@ -291,45 +284,6 @@ pub struct InspectArgs {
     pub quiet: bool,
 }
 
-/// Arguments of `octrace figures`.
-#[derive(Debug, Args)]
-pub struct FiguresArgs {
-    /// The file to draw figures of: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input [default: a
-    /// built-in example]
-    pub file: Option<PathBuf>,
-    /// The folder for the figures; it is made if it is not there
-    #[arg(short, long, value_name = "DIR")]
-    pub output: PathBuf,
-    /// The pixel whose rays are drawn, counted from 0 at the upper left [default: the middle one]
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
-    pub pixel: Option<Pixel>,
-    /// The height of the slice through the octree [default: through its middle]
-    #[arg(long, value_name = "Z", value_parser = values::finite, allow_hyphen_values = true)]
-    pub slice: Option<f64>,
-    /// How often the cells of the octree that is drawn are divided at most
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = values::count(0..=7))]
-    pub octree_depth: u32,
-    /// How many different surfaces of primitives a cell of it may hold without being divided
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = values::count(1..=64))]
-    pub leaf_primitives: u32,
-    /// Which picture the pixel belongs to.
-    #[command(flatten)]
-    pub view: ViewArgs,
-    /// How files are read.
-    #[command(flatten)]
-    pub read: ReadArgs,
-    /// Print nothing but errors
-    #[arg(short, long, help_heading = "Messages")]
-    pub quiet: bool,
-}
-
-impl FiguresArgs {
-    /// How the octree that is drawn is built.
-    pub fn octree(&self) -> BuildOptions {
-        BuildOptions { leaf_surfaces: self.leaf_primitives as usize, depth: Some(self.octree_depth) }
-    }
-}
-
 /// How statistics are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum StatsFormat {
@@ -400,7 +354,7 @@ fn bit_depth(text: &str) -> Result<BitDepth, String> {
 }
 
 /// One of `names`, which `T` can parse; `--help` lists them.
-pub fn names<T>(names: impl IntoIterator<Item = &'static str>) -> impl TypedValueParser<Value = T>
+fn names<T>(names: impl IntoIterator<Item = &'static str>) -> impl TypedValueParser<Value = T>
 where
     T: FromStr<Err: Debug> + Clone + Send + Sync + 'static,
 {

@@ -1,12 +1,18 @@
-//! The arguments of `octrace study`.
+//! Arguments of `octrace study`.
 
-use super::plan::{Depth, Plan};
-use super::scenes::{SceneNames, select};
-use crate::args::{ReadArgs, names};
+use super::{ReadArgs, names};
+use crate::study::{self, Depth, SceneNames};
 use crate::values::{self, Size};
 use clap::Args;
 use octrace::traverse::TraversalKind;
 use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  octrace study
+  octrace study --quick --scenes classic,chain --json study.json
+  octrace study bracket.csg --out bracket.html
+  octrace study bracket.csg --traversals bresenham,samet --leaf-primitives 4,6,8 --octree-depth auto,7";
 
 /// Arguments of `octrace study`.
 #[derive(Debug, Args)]
@@ -40,13 +46,13 @@ pub struct TrialArgs {
     #[arg(long)]
     pub quick: bool,
     /// Scenes that come with the program, by name, or by family: balls, copies, chain
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = select)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = study::select)]
     pub scenes: Vec<SceneNames>,
     /// How rays walk the octree [default: every way]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
     pub traversals: Vec<TraversalKind>,
-    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each
-    /// family, values from 1 to 24; else render's default]
+    /// How many different surfaces a cell may hold without being divided [default: for files and one scene of each family,
+    /// values from 1 to 24; else render's default]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = values::count(1..=64))]
     pub leaf_primitives: Vec<u32>,
     /// How often cells are divided at most; `auto` leaves it to the expected cost of rays [default: for files and one
@@ -63,7 +69,7 @@ pub struct TrialArgs {
 
 impl TrialArgs {
     /// What is to be tried.
-    pub fn plan(&self) -> Plan {
+    pub fn plan(&self) -> study::Plan {
         let usual = if self.quick {
             (3, Size { width_px: 96, height_px: 72 })
         } else {
@@ -71,7 +77,7 @@ impl TrialArgs {
         };
         let size = self.size.unwrap_or(usual.1);
         let some = |list: &[u32]| (!list.is_empty()).then(|| list.iter().map(|&n| n as usize).collect());
-        Plan {
+        study::Plan {
             size_px: (size.width_px, size.height_px),
             repeat: self.repeat.unwrap_or(usual.0),
             traversals: if self.traversals.is_empty() { TraversalKind::ALL.to_vec() } else { self.traversals.clone() },
