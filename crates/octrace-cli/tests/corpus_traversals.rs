@@ -12,7 +12,8 @@ use octrace_read::{ReadOptions, Source, read_scene};
 
 const SIZE_PX: (u32, u32) = (64, 48);
 
-/// So many models are traced: of those in which everything is supported, by size, every second one from the smallest on.
+/// So many models are traced: of those in which everything is supported, by size, every second one from the smallest
+/// on.
 const MODELS: usize = 20;
 
 fn models() -> Option<Vec<(String, Scene)>> {

@@ -1,5 +1,5 @@
-//! `octrace study`, the real program. What it says of time differs from run to run; what must hold whatever the time, is
-//! tested.
+//! `octrace study`, the real program. What it says of time differs from run to run; what must hold whatever the time,
+//! is tested.
 
 mod common;
 
@@ -75,8 +75,8 @@ fn the_figures_are_complete() {
     let figures = &run["figures"];
     assert_keys(
         figures,
-        "octree bytes build_seconds ns_per_ray picture_seconds mrays_per_second cells_per_ray surface_tests_per_ray walk \
-         ratio_to_default speedup_over_canonical",
+        "octree bytes build_seconds ns_per_ray picture_seconds mrays_per_second cells_per_ray surface_tests_per_ray \
+         walk ratio_to_default speedup_over_canonical",
     );
     assert_keys(&figures["octree"], "depth branches leaves outside inside program_words");
     assert_keys(&figures["bytes"], "tree tables programs");

@@ -62,7 +62,7 @@ pub struct TrialArgs {
     /// Rounds of timing, in each of which everything has its turn [default: 5, or 3 with --quick]
     #[arg(long, value_name = "N", value_parser = values::count(1..=1000))]
     pub repeat: Option<u32>,
-    /// Width and height of the pictures in pixels, one ray each [default: 320x240, or 96x72 with --quick]
+    /// Width and height of the pictures in pixels, one ray each [default: 256x192, or 96x72 with --quick]
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = study_size)]
     pub size: Option<Size>,
 }
@@ -73,7 +73,7 @@ impl TrialArgs {
         let usual = if self.quick {
             (3, Size { width_px: 96, height_px: 72 })
         } else {
-            (5, Size { width_px: 320, height_px: 240 })
+            (5, Size { width_px: 256, height_px: 192 })
         };
         let size = self.size.unwrap_or(usual.1);
         let some = |list: &[u32]| (!list.is_empty()).then(|| list.iter().map(|&n| n as usize).collect());

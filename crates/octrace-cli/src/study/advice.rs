@@ -1,7 +1,7 @@
 //! Which settings suit a scene: the fastest ones that were tried, if they still are when measured once more.
 //!
-//! The fastest of many is partly the luckiest of many. So it is measured again, against the default settings, in rounds of
-//! its own, and only these say what it gains.
+//! The fastest of many is partly the luckiest of many. So it is measured again, against the default settings, in rounds
+//! of its own, and only these say what it gains.
 
 use super::context::Context;
 use super::plan::{Config, Depth};

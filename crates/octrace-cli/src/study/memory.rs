@@ -1,5 +1,5 @@
-//! The paper's claim about memory, weighed: the tree that `bresenham` walks against the complete grid of `fujimoto`, when
-//! their smallest cells are of one size.
+//! The paper's claim about memory, weighed: the tree that `bresenham` walks against the complete grid of `fujimoto`,
+//! when their smallest cells are of one size.
 
 use super::context::Context;
 use super::plan::{Config, Depth, Plan};

@@ -110,8 +110,8 @@ impl Plan {
         values
     }
 
-    /// What the tracer chooses, and depths about the one at which the smallest cells are a few times as small as they would
-    /// be if they shared the surfaces evenly.
+    /// What the tracer chooses, and depths about the one at which the smallest cells are a few times as small as they
+    /// would be if they shared the surfaces evenly.
     fn usual_depths(&self, surfaces: usize) -> Vec<Depth> {
         let middle = (surfaces.max(1) as f64).log2() / 3.0 + 3.0;
         let middle = middle.ceil() as u32;
@@ -125,8 +125,8 @@ impl Plan {
         scene.sweep || self.leaf_primitives.is_some() || self.depths.is_some()
     }
 
-    /// How many rays the canonical tracer is given where each meets so many surfaces. It takes some 50 to 100 nanoseconds
-    /// for each.
+    /// How many rays the canonical tracer is given where each meets so many surfaces. It takes some 50 to 100
+    /// nanoseconds for each.
     pub fn canonical_rays(&self, surfaces: usize) -> usize {
         let (tests, least) = if self.quick { (300_000, 8) } else { (3_000_000, 24) };
         (tests / surfaces.max(1)).max(least)

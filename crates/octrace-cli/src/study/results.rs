@@ -1,4 +1,5 @@
-//! What a study finds, as plain data: what `--json` writes and the report shows. `docs/command-line.md` explains the keys.
+//! What a study finds, as plain data: what `--json` writes and the report shows. `docs/command-line.md` explains the
+//! keys.
 
 use super::machine::Machine;
 use super::statistics::Spread;
@@ -257,8 +258,8 @@ pub struct Advice {
     pub octree_depth: Option<u32>,
     /// Whether these are the default settings: no others were faster.
     pub is_default: bool,
-    /// Whether these settings gain enough to bother: when measured once more, in nine of ten rounds at least they were faster
-    /// than the default ones, and in the middle by more than [`Advice::WORTH_IT`].
+    /// Whether these settings gain enough to bother: when measured once more, in nine of ten rounds at least they were
+    /// faster than the default ones, and in the middle by more than [`Advice::WORTH_IT`].
     pub is_worth_it: bool,
     /// The default settings' time over theirs, in rounds of their own: so many times as fast.
     pub speedup: Spread,

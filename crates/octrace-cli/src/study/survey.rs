@@ -1,5 +1,5 @@
-//! The first look at every way to trace a scene: can it be built, is it another one at all, what does it count, and does
-//! it see what the canonical tracer sees?
+//! The first look at every way to trace a scene: can it be built, is it another one at all, what does it count, and
+//! does it see what the canonical tracer sees?
 
 use super::context::Context;
 use super::plan::{Config, Depth};
@@ -157,7 +157,8 @@ fn look(
 }
 
 impl Surveyed {
-    /// If building this took so long that a deeper octree with the same *p* would take too long: its depth, and how long.
+    /// If building this took so long that a deeper octree with the same *p* would take too long: its depth, and how
+    /// long.
     fn too_slow_for(&self, config: &Config, longest_build_s: f64) -> Option<(Depth, f64)> {
         let (Depth::Levels(here), Depth::Levels(there)) = (self.config.depth, config.depth) else { return None };
         let seconds = self.build_seconds.filter(|&seconds| seconds > longest_build_s)?;

@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_complete_octree_has_a_grids_steps() {
-        // With more balls than a leaf may hold in every cell, all eight cells are leaves, and no smaller ones are allowed.
+        // With more balls than a leaf may hold in every cell, all eight cells are leaves: no smaller ones are allowed.
         let octree = BuildOptions { leaf_surfaces: 1, depth: Some(1) };
         let options = TracerOptions { octree, ..TracerOptions::default() };
         let tracer = Tracer::build(&balls(1_000), &options, &Exec::with_threads(1)).unwrap();

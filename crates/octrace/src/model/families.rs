@@ -1,5 +1,5 @@
-//! Families of solids that grow without end, to measure with: what does it cost to have ten times as many primitives, or a
-//! tree twice as deep? The same on every machine.
+//! Families of solids that grow without end, to measure with: what does it cost to have ten times as many primitives,
+//! or a tree twice as deep? The same on every machine.
 
 use super::Solid;
 use crate::geom::{Vec3, sin_cos_deg};
@@ -12,8 +12,9 @@ pub fn classic() -> Solid {
     Solid::difference([cube & Solid::sphere().scale([1.35; 3]), bar].into_iter().chain(across))
 }
 
-/// A block minus `n` balls on a cubic lattice, spread evenly over its points where `n` is not a cube. The lattice has a unit
-/// between points and the block is as many units wide as the lattice has points; balls reach out of three of its faces.
+/// A block minus `n` balls on a cubic lattice, spread evenly over its points where `n` is not a cube. The lattice has a
+/// unit between points and the block is as many units wide as the lattice has points; balls reach out of three of its
+/// faces.
 pub fn balls(n: u32) -> Solid {
     let n = u64::from(n);
     let edge = (1_u64..).find(|edge| edge.pow(3) >= n).unwrap_or(1);
@@ -32,8 +33,8 @@ pub fn copies(n: u32) -> Solid {
     Solid::union((0..n).map(|i| classic().translate(at(i))))
 }
 
-/// A ball that `depth` smaller ones on its surface are taken from and added to by turns, in a tree that is as deep as it has
-/// operators: no step can be exchanged with the next.
+/// A ball that `depth` smaller ones on its surface are taken from and added to by turns, in a tree that is as deep as
+/// it has operators: no step can be exchanged with the next.
 pub fn chain(depth: u32) -> Solid {
     /// What the directions of a sunflower's seeds differ by.
     const GOLDEN_ANGLE_DEG: f64 = 137.507_764_050_037_85;

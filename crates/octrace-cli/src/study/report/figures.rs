@@ -23,7 +23,8 @@ pub fn growth(study: &Study) -> Vec<(Plot<'static>, String)> {
             Family::Copies => ("primitives", "More and more copies of the classic side by side."),
             Family::Chain => (
                 "depth of the CSG tree",
-                "A ball that smaller ones are taken from and added to by turns: every operation lies on top of the one before.",
+                "A ball that smaller ones are taken from and added to by turns: every operation lies on top of the one \
+                 before.",
             ),
         };
         let x = |scene: &SceneReport| match family {

@@ -1,7 +1,7 @@
 //! What the figures say, in sentences.
 
 use super::format::{number, range, whole};
-use super::look_up::{best_fixed_depth, steps_of_both, traversals, values_of_p, with_traversal};
+use super::look_up::{best_fixed_depth, by_cost, steps_of_both, traversals, values_of_p, with_traversal};
 use crate::study::plan::Config;
 use crate::study::results::{Advice, SceneReport, Study};
 use crate::study::scenes::Family;
@@ -21,7 +21,9 @@ pub fn findings(study: &Study) -> Markup {
     html! {
         h2 id="findings" { "Findings" }
         (equality(study))
-        p.quiet { "Numbers are medians, over the scenes where there are several; in brackets the least and the greatest." }
+        p.quiet {
+            "Numbers are medians, over the scenes where there are several; in brackets the least and the greatest."
+        }
         ul { @for sentence in &sentences { li { (sentence) } } }
     }
 }
@@ -38,8 +40,8 @@ fn equality(study: &Study) -> Markup {
             }
         } @else {
             p.defect {
-                strong { (whole(c.differing)) " of " (whole(c.hits)) " hits differ" } ", and " (whole(c.leaks)) " rays met \
-                cells that contradict each other. That is a defect of octrace; please report it. Scenes concerned: "
+                strong { (whole(c.differing)) " of " (whole(c.hits)) " hits differ" } ", and " (whole(c.leaks)) " rays \
+                met cells that contradict each other. That is a defect of octrace; please report it. Scenes concerned: "
                 (defective(study)) "."
             }
         }
@@ -130,29 +132,29 @@ fn memory(study: &Study) -> Option<Markup> {
     let ratio = Spread::of(rows.map(|row| row.grid_over_tree));
     Some(html! {
         "With " (deepest) " levels and one surface a leaf, " code { "fujimoto" } "’s grid takes "
-        strong { (number(ratio.median)) " times" } " the memory of " code { "bresenham" } "’s tree with the same smallest cell"
+        strong { (number(ratio.median)) " times" } " the memory of "
+        code { "bresenham" } "’s tree with the same smallest cell"
         (range(&ratio)) "."
     })
 }
 
 /// What cutting cells by expected cost gains over the paper's fixed *p* and depth.
 fn stop_rule(study: &Study) -> Option<Markup> {
-    let fixed: Vec<f64> = study
-        .scenes
-        .iter()
-        .filter_map(|scene| {
-            let best = values_of_p([scene]).into_iter().filter_map(|p| best_fixed_depth(scene, p));
-            best.map(|(ratio, _)| ratio).min_by(f64::total_cmp)
-        })
-        .collect();
-    if fixed.is_empty() {
+    let best = |scene, find: fn(&SceneReport, usize) -> Option<(f64, u32)>| {
+        let found = values_of_p([scene]).into_iter().filter_map(|p| find(scene, p));
+        found.map(|(ratio, _)| ratio).min_by(f64::total_cmp)
+    };
+    let both = |scene| Some((best(scene, by_cost)?, best(scene, best_fixed_depth)?));
+    let both: Vec<(f64, f64)> = study.scenes.iter().filter_map(both).collect();
+    if both.is_empty() {
         return None;
     }
-    let ratio = Spread::of(fixed);
+    let fixed = Spread::of(both.iter().map(|(by_cost, fixed)| fixed / by_cost));
+    let usual = Spread::of(both.iter().map(|(by_cost, _)| by_cost.recip()));
     Some(html! {
-        "When to stop cutting: the best of the fixed values of p and depth that were tried on a scene takes "
-        strong { (number(ratio.median)) " times" } " as long" (range(&ratio)) " as the default settings, which cut cells by the \
-        expected cost of rays."
+        "When to stop cutting: with the best p and fixed depth of those tried on a scene, rays take "
+        strong { (number(fixed.median)) " times" } " as long" (range(&fixed)) " as with the best p and cells cut by their \
+        expected cost. The default p takes " (number(usual.median)) " times" (range(&usual)) " as long as that."
     })
 }
 
@@ -169,7 +171,8 @@ fn settings(study: &Study) -> Option<Markup> {
             @if i > 0 { "; " }
             (scene.name) ": "
             @if advice.is_worth_it {
-                code { (advice.options) } " is " strong { (number(advice.speedup.median)) " times" } " as fast as the default"
+                code { (advice.options) } " is "
+                strong { (number(advice.speedup.median)) " times" } " as fast as the default"
             } @else {
                 "the default settings do"
             }

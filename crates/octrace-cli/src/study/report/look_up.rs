@@ -24,8 +24,8 @@ pub fn figures<'a>(scene: &'a SceneReport, run: &'a Run) -> Option<&'a Figures> 
     }
 }
 
-/// The walks of `bresenham` and `fujimoto` at the default settings, where both have the same octree, and that is more than
-/// a single cell.
+/// The walks of `bresenham` and `fujimoto` at the default settings, where both have the same octree, and that is more
+/// than a single cell.
 pub fn steps_of_both(scene: &SceneReport) -> Option<(Walk, Walk)> {
     let (_, bresenham) = with_traversal(scene, "bresenham")?;
     let (_, fujimoto) = with_traversal(scene, "fujimoto")?;
@@ -33,8 +33,8 @@ pub fn steps_of_both(scene: &SceneReport) -> Option<(Walk, Walk)> {
     is_fair.then_some((bresenham.walk, fujimoto.walk))
 }
 
-/// The least time with this *p*, the default traversal and a fixed depth, over that of the default settings; and the depth
-/// that was reached.
+/// The least time with this *p*, the default traversal and a fixed depth, over that of the default settings; and the
+/// depth that was reached.
 pub fn best_fixed_depth(scene: &SceneReport, p: usize) -> Option<(f64, u32)> {
     let is_meant = |run: &&Run| {
         run.leaf_primitives == p && run.octree_depth.is_some() && run.traversal == Config::default().traversal.name()
@@ -43,8 +43,8 @@ pub fn best_fixed_depth(scene: &SceneReport, p: usize) -> Option<(f64, u32)> {
     figures.map(|f| (f.ratio_to_default.median, f.octree.depth)).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// The time with this *p*, the default traversal and the depth left to the tracer, over that of the default settings; and
-/// the depth that was reached.
+/// The time with this *p*, the default traversal and the depth left to the tracer, over that of the default settings;
+/// and the depth that was reached.
 pub fn by_cost(scene: &SceneReport, p: usize) -> Option<(f64, u32)> {
     let is_meant = |run: &&Run| {
         run.leaf_primitives == p && run.octree_depth.is_none() && run.traversal == Config::default().traversal.name()

@@ -36,18 +36,18 @@ fn body(study: &Study) -> Markup {
         (findings::findings(study))
         h2 id="traversals" { "Every traversal at the default settings" }
         p {
-            "Primary rays only: one ray through the middle of each pixel, up to its first hit; no shadows, no shading. Times \
-             are medians over the rounds, with the least and the greatest in brackets. " code { "none" } " is the canonical \
-             tracer, without octree."
+            "Primary rays only: one ray through the middle of each pixel, up to its first hit; no shadows, no shading. \
+             Times are medians over the rounds, with the least and the greatest in brackets. " code { "none" } " is \
+             the canonical tracer, without octree."
         }
         (tables::defaults(study))
         (growth(study))
         h2 id="steps" { "What one step costs" }
         p {
-            "The pure walk: rays go through the whole root cube, from where they enter to where they leave, and nothing is \
-             done in any cell. Its time, entering included, is divided by the number of cells. " code { "fujimoto" } " steps \
-             through every cell of its grid: there the time is divided by these steps, and the last column says how many of \
-             them it takes for one cell of the octree."
+            "The pure walk: rays go through the whole root cube, from where they enter to where they leave, and \
+             nothing is done in any cell. Its time, entering included, is divided by the number of cells. "
+            code { "fujimoto" } " steps through every cell of its grid: there the time is divided by these steps, and \
+             the last column says how many of them it takes for one cell of the octree."
         }
         (tables::steps(study))
         (memory(study))
@@ -88,8 +88,9 @@ fn memory(study: &Study) -> Markup {
             p {
                 "What each traversal needs to find its way, beside the leaves' programs, which all need: for "
                 code { "bresenham" } " (and " code { "samet" } ") the tree and the parents of its branches, for "
-                code { "glassner" } " its hash table and sorted list of codes, for " code { "fujimoto" } " five bytes for \
-                each cell of the grid. Where the grid has more than the eight levels that are allowed, its size is computed."
+                code { "glassner" } " its hash table and sorted list of codes, for " code { "fujimoto" } " five bytes \
+                for each cell of the grid. Where the grid has more than the eight levels that are allowed, its \
+                size is computed."
             }
             @for (plot, caption) in figures::memory(study) {
                 @if let Some(drawn) = figure(&plot, &caption) { (drawn) }
@@ -107,9 +108,9 @@ fn settings(study: &Study) -> Markup {
             h2 id="settings" { "Which settings suit which scene" }
             @if tried.len() > 1 {
                 p {
-                    "Time ÷ that of the default settings, with the default traversal: where the tracer cuts cells as the \
-                     expected cost of rays has it, and at that fixed depth of those tried which suits best (the luckiest of \
-                     several, that is). In brackets the depth that the octree has."
+                    "Time ÷ that of the default settings, with the default traversal: where the tracer cuts cells as \
+                     the expected cost of rays has it, and at that fixed depth of those tried which suits best (the \
+                     luckiest of several, that is). In brackets the depth that the octree has."
                 }
                 (tables::leaf_primitives(&tried))
             }
@@ -128,19 +129,21 @@ fn advice_in_words(advice: &Advice) -> Markup {
     html! {
         div.advice {
             @if advice.is_worth_it {
-                "Use " code { (advice.options) } ": " strong { (number(speedup.median)) } " times as fast as the default \
-                settings (" (number(speedup.min)) "–" (number(speedup.max)) " in rounds of their own), with "
+                "Use " code { (advice.options) } ": " strong { (number(speedup.median)) } " times as fast as the \
+                default settings (" (number(speedup.min)) "–" (number(speedup.max)) " in rounds of their own), with "
                 (number(*memory_ratio)) " times the memory. "
                 @match advice.pays_from_rays {
-                    Some(rays) => { "They take longer to build, which pays from " (whole(rays.ceil() as u64)) " rays on." }
+                    Some(rays) => {
+                        "They take longer to build, which pays from " (whole(rays.ceil() as u64)) " rays on."
+                    }
                     None => { "They take no longer to build." }
                 }
             } @else if advice.is_default {
                 "Stay with the default settings: none of the others was faster."
             } @else {
                 "Stay with the default settings. The fastest of the others, " code { (advice.options) } ", was "
-                (number(speedup.median)) " times as fast (" (number(speedup.min)) "–" (number(speedup.max)) ") when measured \
-                once more: not a gain to rely on."
+                (number(speedup.median)) " times as fast (" (number(speedup.min)) "–" (number(speedup.max)) ") when \
+                measured once more: not a gain to rely on."
             }
         }
     }
@@ -152,29 +155,30 @@ fn how(study: &Study) -> Markup {
     html! {
         ul {
             li {
-                "Pictures have " (settings.width) "×" (settings.height) " pixels, one ray each, all traced in every round. \
-                 The canonical tracer was given as many of them, spread over the picture, as do not take too long: at least "
+                "Pictures have " (settings.width) "×" (settings.height) " pixels, one ray each, all traced in every \
+                 round. The canonical tracer was given as many of them, spread over the picture, as do not take too \
+                 long: at least "
                 (whole(sparse as u64)) ". Its time for a picture is computed from these."
             }
             li {
-                "There were " (settings.repeat) " rounds. In each round every way to trace has its turn: it is built, warmed up \
-                 on an eighth of the rays, timed on all of them, and its walk is timed by itself. Every other round goes \
-                 backwards. Ratios are formed within a round, and their medians shown."
+                "There were " (settings.repeat) " rounds. In each round every way to trace has its turn: it is built, \
+                 warmed up on an eighth of the rays, timed on all of them, and its walk is timed by itself. Every \
+                 other round goes backwards. Ratios are formed within a round, and their medians shown."
             }
             li { "One thread builds, traces and walks." }
             li {
-                "Before any clock is started, every way to trace finds all hits, which must be those of the canonical tracer \
-                 for the rays that it was given, and for the others those of every other way: ray parameter, primitive, \
-                 surface and side, to the last bit."
+                "Before any clock is started, every way to trace finds all hits, which must be those of the canonical \
+                 tracer for the rays that it was given, and for the others those of every other way: ray parameter, \
+                 primitive, surface and side, to the last bit."
             }
             li {
-                "Surface tests are the words of programs evaluated until the hit: a block counts as up to six surfaces, a ball \
-                 as one. Nodes are cells of all kinds, branches included. Bytes are those of the tree, the traversal's tables \
-                 and the leaves' programs; the surfaces themselves are not counted."
+                "Surface tests are the words of programs evaluated until the hit: a block counts as up to six \
+                 surfaces, a ball as one. Nodes are cells of all kinds, branches included. Bytes are those of the \
+                 tree, the traversal's tables and the leaves' programs; the surfaces themselves are not counted."
             }
             li {
-                "Settings that lead to the very octree of other settings are not measured twice. " code { "fujimoto" } " is \
-                 not possible with more than eight levels; where the tracer itself would choose more, it has eight."
+                "Settings that lead to the very octree of other settings are not measured twice. "
+                code { "fujimoto" } " is not possible with more than eight levels; where the tracer itself would choose more, it has eight."
             }
         }
     }

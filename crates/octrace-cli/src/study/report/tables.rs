@@ -11,8 +11,9 @@ pub fn defaults(study: &Study) -> Markup {
     html! {
         div.scroll { table {
             thead { tr {
-                th.text { "scene" } th { "primitives" } th.text { "traversal" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" } th { "picture" }
+                th.text { "scene" } th { "primitives" } th.text { "traversal" } th { "nodes" } th { "depth" }
+                th { "bytes" } th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" }
+                th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for scene in &study.scenes { (scene_rows(study, scene)) } }
@@ -30,12 +31,14 @@ fn scene_rows(study: &Study, scene: &SceneReport) -> Markup {
             td.text { (scene.name) } td { (whole(scene.primitives as u64)) } td.text { "none" } td {} td {} td {}
             td { (spread_seconds(&canonical.build_seconds)) } td {}
             td { (number(canonical.surface_tests_per_ray)) } td {}
-            td { (spread_seconds(&canonical.ns_per_ray.times(1e-9))) } td { (seconds(canonical.picture_seconds.median)) }
+            td { (spread_seconds(&canonical.ns_per_ray.times(1e-9))) }
+            td { (seconds(canonical.picture_seconds.median)) }
             td { (number(canonical.mrays_per_second)) } td { (spread(&canonical.ratio_to_default)) } td { "1" }
         }
         @for (run, f) in runs {
             tr.usual[run.is_default] {
-                td {} td {} td.text { (run.traversal) } (octree_cells(f)) (cost_cells(f, f.ns_per_ray.median == fastest))
+                td {} td {} td.text { (run.traversal) } (octree_cells(f))
+                (cost_cells(f, f.ns_per_ray.median == fastest))
             }
         }
     }
@@ -125,8 +128,9 @@ pub fn settings(scene: &SceneReport) -> Markup {
     html! {
         div.scroll { table {
             thead { tr {
-                th.text { "traversal" } th { "p" } th { "depth asked" } th { "nodes" } th { "depth" } th { "bytes" }
-                th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" } th { "picture" }
+                th.text { "traversal" } th { "p" } th { "depth asked" } th { "nodes" } th { "depth" }
+                th { "bytes" } th { "build" } th { "cells/ray" } th { "tests/ray" } th { "ns/step" } th { "time/ray" }
+                th { "picture" }
                 th { "Mrays/s" } th { "time ÷ default" } th { "× canonical" }
             } }
             tbody { @for run in scene.runs.iter().filter(|run| run.status != Status::SameTree) {
@@ -167,7 +171,8 @@ pub fn memory(study: &Study) -> Markup {
             } }
             tbody { @for row in &study.memory {
                 tr {
-                    td.text { (row.scene) } td { (row.leaf_primitives) } td { (row.depth) } td { (whole(row.nodes as u64)) }
+                    td.text { (row.scene) } td { (row.leaf_primitives) } td { (row.depth) }
+                    td { (whole(row.nodes as u64)) }
                     td { (bytes(row.bresenham.programs)) } td { (bytes(row.bresenham.tree + row.bresenham.tables)) }
                     td { (bytes(row.glassner.tables)) }
                     td { (bytes(row.fujimoto.tables)) @if !row.grid_was_made { " " small { "(computed)" } } }
