@@ -133,7 +133,7 @@ pub struct TraceArgs {
     #[arg(long, value_name = "WHAT", default_value = "octree", value_parser = names::<Accel>(["none", "octree"]))]
     pub accel: Accel,
     /// How rays walk the octree
-    #[arg(long, value_name = "NAME", default_value_t = TraversalKind::ALL[0], value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
+    #[arg(long, value_name = "NAME", default_value_t, value_parser = names::<TraversalKind>(TraversalKind::ALL.map(TraversalKind::name)))]
     pub traversal: TraversalKind,
     /// How often the octree's cells are divided at most [default: as long as it makes rays faster]
     #[arg(long, value_name = "N", value_parser = values::count(0..=20))]

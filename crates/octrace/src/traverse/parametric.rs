@@ -5,7 +5,7 @@
 
 use super::{Step, cell_of, octant_at, plane_t};
 use crate::geom::{Ray, Vec3};
-use crate::octree::{Kind, Octree};
+use crate::octree::{CellWord, Kind, Octree};
 use std::ops::ControlFlow;
 
 pub(super) fn walk<B>(
@@ -15,25 +15,29 @@ pub(super) fn walk<B>(
     t_out: f64,
     mut visit: impl FnMut(Step<'_>) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
-    // At most three children more than are taken off wait at each level.
-    let mut stack = Vec::with_capacity(64);
-    stack.push((octree.root, octree.center, octree.half, t_in, t_out));
-    while let Some((word, center, half, t_in, t_out)) = stack.pop() {
-        if let Kind::Branch(index) = word.kind() {
-            let children = &octree.branches[index as usize];
-            let child_half = half / 2.0;
-            let (cuts, count) = cuts(ray, center, t_in, t_out);
-            for i in (0..=count).rev() {
-                let start = if i == 0 { t_in } else { cuts[i - 1] };
-                let end = if i == count { t_out } else { cuts[i] };
-                let octant = octant_at(ray, center, start);
-                let child_center = Octree::child_center(center, child_half, octant);
-                stack.push((children[octant], child_center, child_half, start, end));
-            }
-            continue;
-        }
-        let cell = cell_of(octree, word);
-        visit(Step { cell, t_in, t_out, center, half })?;
+    cell(octree, ray, (octree.root, octree.center, octree.half), (t_in, t_out), &mut visit)
+}
+
+/// Walks one cell; as deep as the octree is.
+fn cell<B>(
+    octree: &Octree,
+    ray: &Ray,
+    (word, center, half): (CellWord, Vec3, f64),
+    (t_in, t_out): (f64, f64),
+    visit: &mut impl FnMut(Step<'_>) -> ControlFlow<B>,
+) -> ControlFlow<B> {
+    let Kind::Branch(index) = word.kind() else {
+        return visit(Step { cell: cell_of(octree, word), t_in, t_out, center, half });
+    };
+    let children = &octree.branches[index as usize];
+    let child_half = half / 2.0;
+    let (cuts, count) = cuts(ray, center, t_in, t_out);
+    let mut start = t_in;
+    for end in cuts[..count].iter().copied().chain([t_out]) {
+        let octant = octant_at(ray, center, start);
+        let child = (children[octant], Octree::child_center(center, child_half, octant), child_half);
+        cell(octree, ray, child, (start, end), visit)?;
+        start = end;
     }
     ControlFlow::Continue(())
 }
