@@ -22,7 +22,7 @@ pub struct BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { leaf_surfaces: 6, depth: None }
+        Self { leaf_surfaces: 3, depth: None }
     }
 }
 
@@ -305,7 +305,7 @@ impl Builder<'_> {
     /// end before they get there.
     fn pays(&self, words: usize, children: impl Iterator<Item = usize>) -> bool {
         /// A step to the next cell takes as long as so many words of a program.
-        const STEP: f64 = 4.0;
+        const STEP: f64 = 2.0;
         /// The share of rays through a cell that get to a certain child.
         const REACHED: f64 = 0.2;
         /// With longer programs there is always something to gain, if not at once.
