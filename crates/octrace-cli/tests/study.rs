@@ -153,7 +153,7 @@ fn a_model_gets_advice() {
     let advice = &scene["advice"];
     assert!(spread(&advice["speedup"])[0] > 0.0 && advice["options"].as_str().unwrap().starts_with("--traversal "));
     assert!(page.contains("Which settings suit which scene") && page.contains("a&amp;b.csg"));
-    assert!(page.contains("Stay with the default settings.") || page.contains("times as fast as the default settings"));
+    assert!(page.contains("Stay with the default settings") || page.contains("times as fast as the default settings"));
 }
 
 #[test]
