@@ -2,9 +2,10 @@
 
 use super::Film;
 use crate::exec::{Cancelled, Exec};
-use crate::model::{Camera, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
-use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Whitted};
-use crate::trace::{Counters, Scratch, Tracer};
+use crate::geom::Bounds;
+use crate::model::{Camera, CameraRays, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
+use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Seen, Whitted};
+use crate::trace::{Backend, Counters, Scratch, TileHit, Tiles, Tracer};
 use rayon::prelude::*;
 use std::ops::AddAssign;
 
@@ -45,7 +46,7 @@ pub struct RenderStats {
     pub counters: Counters,
 }
 
-const TILE_PX: u32 = 16;
+const TILE_PX: u32 = crate::trace::TILE_PX as u32;
 
 /// Renders the scene. The tracer must have been built from the scene's solid, or from its bodies.
 ///
@@ -53,6 +54,11 @@ const TILE_PX: u32 = 16;
 /// If `exec` is cancelled.
 pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Result<(Film, RenderStats), Cancelled> {
     let integrator = integrator(scene, tracer, view);
+    let rays = view.camera.rays(view.width_px, view.height_px);
+    let edge = |size: u32| [0.0, f64::from(size)];
+    let corners = edge(view.width_px).into_iter().flat_map(|x| edge(view.height_px).map(|y| rays.ray(x, y).origin));
+    let tiles_together = tracer.tiles(&Bounds::around(corners), Backend::best());
+    let camera = TileCamera { tracer, rays, together: tiles_together };
     let (width, height) = (view.width_px, view.height_px);
     let tiles_across = width.div_ceil(TILE_PX);
     let tiles = tiles_across * height.div_ceil(TILE_PX);
@@ -64,7 +70,7 @@ pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Resul
             .into_par_iter()
             .map_init(Scratch::default, |scratch, tile| {
                 exec.cancel.check()?;
-                let tile = Tile::render(&integrator, view, tile_origin(tile), scratch);
+                let tile = Tile::render(&integrator, &camera, view, tile_origin(tile), scratch);
                 exec.progress.advance(1);
                 Ok(tile)
             })
@@ -90,7 +96,9 @@ pub fn ray_tree(scene: &Scene, tracer: &Tracer, view: &View, (x, y): (u32, u32))
     let ray = view.camera.rays(view.width_px, view.height_px).ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
     let mut recorder = Recorder::default();
     let integrator = integrator(scene, tracer, view);
-    integrator.camera_ray(&ray, &mut Scratch::default(), &mut RayCounts::default(), &mut recorder);
+    let mut scratch = Scratch::default();
+    let first = tracer.first_body_hit(&ray, f64::INFINITY, &mut scratch);
+    integrator.camera_ray(&ray, first, &mut scratch, &mut RayCounts::default(), &mut recorder);
     recorder.tree
 }
 
@@ -115,6 +123,41 @@ impl AddAssign for RenderStats {
     }
 }
 
+/// Camera rays, and what they meet.
+struct TileCamera<'a> {
+    tracer: &'a Tracer,
+    rays: CameraRays,
+    /// How tiles are traced together, if they can be.
+    together: Option<Tiles<'a>>,
+}
+
+impl TileCamera<'_> {
+    /// What the rays through the given point of every pixel of a tile meet.
+    fn hits(
+        &self,
+        (left, top): (u32, u32),
+        size: (u32, u32),
+        place: (f64, f64),
+        scratch: &mut Scratch,
+    ) -> Vec<TileHit> {
+        let (left, top) = (f64::from(left), f64::from(top));
+        let ray = |x: f64, y: f64| self.rays.ray(left + x, top + y);
+        let pixels = (0..size.1).flat_map(|y| (0..size.0).map(move |x| (x, y)));
+        match &self.together {
+            Some(tiles) => {
+                let hits = tiles.hits(ray, place, (size.0 as usize, size.1 as usize), scratch);
+                pixels.map(|(x, y)| hits[y as usize][x as usize]).collect()
+            }
+            None => pixels
+                .map(|(x, y)| {
+                    let ray = ray(f64::from(x) + place.0, f64::from(y) + place.1);
+                    self.tracer.first_body_hit(&ray, f64::INFINITY, scratch)
+                })
+                .collect(),
+        }
+    }
+}
+
 struct Tile {
     width: u32,
     pixels: Vec<[f32; 4]>,
@@ -122,30 +165,34 @@ struct Tile {
 }
 
 impl Tile {
-    fn render(integrator: &Whitted, view: &View, (left, top): (u32, u32), scratch: &mut Scratch) -> Self {
-        let rays = view.camera.rays(view.width_px, view.height_px);
-        let right = (left + TILE_PX).min(view.width_px);
-        let bottom = (top + TILE_PX).min(view.height_px);
+    fn render(
+        integrator: &Whitted,
+        camera: &TileCamera,
+        view: &View,
+        (left, top): (u32, u32),
+        scratch: &mut Scratch,
+    ) -> Self {
+        let (width, height) = ((view.width_px - left).min(TILE_PX), (view.height_px - top).min(TILE_PX));
         let samples = view.samples.max(1);
         let mut stats = RenderStats::default();
-        let mut pixels = Vec::with_capacity(((right - left) * (bottom - top)) as usize);
+        let mut sums = vec![Seen { color: Rgb::BLACK, alpha: 0.0 }; (width * height) as usize];
         scratch.counters = Counters::default();
-        for y in top..bottom {
-            for x in left..right {
-                let (mut color, mut alpha) = (Rgb::BLACK, 0.0);
-                for sample in 0..samples {
-                    let (dx, dy) = sample_place(sample, samples);
-                    let ray = rays.ray(f64::from(x) + dx, f64::from(y) + dy);
-                    let seen = integrator.camera_ray(&ray, scratch, &mut stats.rays, &mut ());
-                    color += seen.color;
-                    alpha += seen.alpha;
-                }
-                let share = 1.0 / f64::from(samples);
-                pixels.push([color.r * share, color.g * share, color.b * share, alpha * share].map(|v| v as f32));
+        for sample in 0..samples {
+            let place = sample_place(sample, samples);
+            let hits = camera.hits((left, top), (width, height), place, scratch);
+            for ((sum, hit), index) in sums.iter_mut().zip(hits).zip(0..) {
+                let (x, y) = (f64::from(left) + f64::from(index % width), f64::from(top) + f64::from(index / width));
+                let ray = camera.rays.ray(x + place.0, y + place.1);
+                let seen = integrator.camera_ray(&ray, hit, scratch, &mut stats.rays, &mut ());
+                sum.color += seen.color;
+                sum.alpha += seen.alpha;
             }
         }
+        let share = 1.0 / f64::from(samples);
+        let pixel = |Seen { color, alpha }| [color.r * share, color.g * share, color.b * share, alpha * share];
+        let pixels = sums.into_iter().map(|sum| pixel(sum).map(|v| v as f32)).collect();
         stats.counters = scratch.counters;
-        Self { width: right - left, pixels, stats }
+        Self { width, pixels, stats }
     }
 }
 

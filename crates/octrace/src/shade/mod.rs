@@ -6,4 +6,4 @@ mod whitted;
 pub(crate) use ray_tree::Recorder;
 pub use ray_tree::{RayKind, RayTree, TracedRay};
 pub use whitted::RayCounts;
-pub(crate) use whitted::{Lighting, Whitted};
+pub(crate) use whitted::{Lighting, Seen, Whitted};

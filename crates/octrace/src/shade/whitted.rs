@@ -120,10 +120,11 @@ impl<'a> Whitted<'a> {
         Self { scene, tracer, lighting, body_ior, max_bounces, size }
     }
 
-    /// Light along a camera ray; `watch` sees every ray that is traced for it.
+    /// Light along a camera ray that meets `first`; `watch` sees every ray that is traced for it.
     pub(crate) fn camera_ray(
         &self,
         ray: &Ray,
+        first: Option<(usize, Hit)>,
         scratch: &mut Scratch,
         counts: &mut RayCounts,
         watch: &mut impl Watch,
@@ -139,7 +140,7 @@ impl<'a> Whitted<'a> {
             }
         }
         watch.sets_out(RayKind::Camera, ray, Rgb::WHITE);
-        let seen = Path { integrator: self, scratch, counts, watch }.radiance(ray, media, 0, 1.0, true);
+        let seen = Path { integrator: self, scratch, counts, watch }.seen(ray, first, media, 0, 1.0, true);
         watch.returns(seen.color);
         seen
     }
@@ -158,10 +159,24 @@ struct Path<'a, 'b, W> {
 }
 
 impl<W: Watch> Path<'_, '_, W> {
-    /// `direct` says that the ray comes from the camera, if through glass.
+    /// Light along a ray.
     fn radiance(&mut self, ray: &Ray, media: Media, bounce: u32, weight: f64, direct: bool) -> Seen {
+        let first = self.integrator.tracer.first_body_hit(ray, f64::INFINITY, self.scratch);
+        self.seen(ray, first, media, bounce, weight, direct)
+    }
+
+    /// Light along a ray that meets `first`. `direct` says that the ray comes from the camera, if through glass.
+    fn seen(
+        &mut self,
+        ray: &Ray,
+        first: Option<(usize, Hit)>,
+        media: Media,
+        bounce: u32,
+        weight: f64,
+        direct: bool,
+    ) -> Seen {
         let Whitted { tracer, lighting, .. } = self.integrator;
-        let Some((body, hit)) = tracer.first_body_hit(ray, f64::INFINITY, self.scratch) else {
+        let Some((body, hit)) = first else {
             return match direct && lighting.transparent {
                 true => Seen { color: Rgb::BLACK, alpha: 0.0 },
                 false => Seen { color: lighting.background, alpha: 1.0 },

@@ -28,7 +28,7 @@ pub struct Quadric {
 
 impl QuadricKind {
     /// `(s, c)` of the common equation `f = x² + y² + s z² + c < 0`.
-    fn coefficients(self) -> (f64, f64) {
+    pub(crate) fn coefficients(self) -> (f64, f64) {
         match self {
             Self::Sphere => (1.0, -1.0),
             Self::Cylinder => (0.0, -1.0),

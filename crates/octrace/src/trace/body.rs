@@ -12,7 +12,7 @@ use crate::exec::{Cancelled, Exec, with_stack_for};
 use crate::geom::{Hit, Ray, Span, Spans, SpansBuilder};
 use crate::octree::{Octree, build};
 use crate::surface::{CellBox, Side};
-use crate::traverse::{Step, Traversal, root_interval};
+use crate::traverse::{Step, Traversal, TraversalKind, root_interval};
 use std::ops::ControlFlow;
 
 /// A compiled body. Rays come *prepared*, see [`super::prepared`].
@@ -42,6 +42,11 @@ impl Body {
         };
         let nesting = program.nesting();
         Ok(Self { program, octree, accel: options.accel, nesting })
+    }
+
+    /// Whether rays walk an octree in the usual way.
+    pub fn is_walked_by_default(&self) -> bool {
+        self.octree.as_ref().is_some_and(|(_, traversal)| traversal.kind() == TraversalKind::default())
     }
 
     /// The octree, if there is one.

@@ -11,10 +11,12 @@ mod report;
 mod roots;
 mod stats;
 mod sweep;
+mod tile;
 mod tracer;
 
 pub use cells::OctreeCell;
 pub use options::{Accel, TracerOptions, UnknownAccel};
 pub use report::{RayReport, VisitedCell};
 pub use stats::{Counters, TracerStats};
+pub use tile::{Backend, TILE_PX, TileHit, TileHits, Tiles};
 pub use tracer::{Scratch, SurfacePoint, Tracer};

@@ -35,6 +35,11 @@ impl Prepared {
         prepared
     }
 
+    /// Whether the ray is traced just as it was given.
+    pub fn is_as_given(&self) -> bool {
+        self.shift == 0.0 && self.scale == 1.0 && !self.passes_by
+    }
+
     /// Restarts a ray from far away where its line comes nearest to the middle of the bounds.
     fn approach(&mut self, bounds: &Bounds) {
         let center = bounds.center();

@@ -124,6 +124,18 @@ enum Tables {
 }
 
 impl Traversal {
+    /// Which traversal it is.
+    pub fn kind(&self) -> TraversalKind {
+        match self.0 {
+            Tables::Parametric => TraversalKind::Parametric,
+            Tables::Glassner(_) => TraversalKind::Glassner,
+            Tables::WyvillKunii => TraversalKind::WyvillKunii,
+            Tables::Fujimoto(_) => TraversalKind::Fujimoto,
+            Tables::Samet(_) => TraversalKind::Samet,
+            Tables::Bresenham(_) => TraversalKind::Bresenham,
+        }
+    }
+
     /// Makes the tables that this traversal needs.
     ///
     /// # Panics

@@ -1,0 +1,94 @@
+//! Tiles of rays see what each of their rays sees, whatever machine they are compiled for.
+
+mod common;
+
+use common::{cases, lattice_point, lattice_solid};
+use octrace::exec::Exec;
+use octrace::octree::BuildOptions;
+use octrace::trace::{Backend, Scratch, TILE_PX};
+use octrace::{Accel, Bounds, Camera, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
+use proptest::prelude::*;
+
+const SIZE_PX: u32 = TILE_PX as u32;
+
+fn tracer(bodies: &[Solid], options: &TracerOptions) -> Tracer {
+    Tracer::build_bodies(bodies, options, &Exec::with_threads(1)).expect("nobody cancels")
+}
+
+/// Compares all rays of a film of one tile; `place` is where in its pixel each ray goes through. Returns how many of the
+/// backends could trace it.
+fn compare(bodies: &[Solid], octree: BuildOptions, camera: &Camera, place: (f64, f64)) -> Result<usize, TestCaseError> {
+    let expected = tracer(bodies, &TracerOptions { accel: Accel::None, ..TracerOptions::default() });
+    let tested = tracer(bodies, &TracerOptions { octree, ..TracerOptions::default() });
+    let rays = camera.rays(SIZE_PX, SIZE_PX);
+    let ray = |x: f64, y: f64| rays.ray(x, y);
+    let size = f64::from(SIZE_PX);
+    let corners = [(0.0, 0.0), (0.0, size), (size, 0.0), (size, size)].map(|(x, y)| ray(x, y).origin);
+    let mut scratch = Scratch::default();
+    let mut backends = 0;
+    for backend in Backend::ALL.into_iter().filter(|backend| backend.is_available()) {
+        let Some(tiles) = tested.tiles(&Bounds::around(corners), backend) else { continue };
+        backends += 1;
+        // A tile at the picture's edge has fewer pixels.
+        for (width, height) in [(TILE_PX, TILE_PX), (TILE_PX - 3, 5)] {
+            let hits = tiles.hits(ray, place, (width, height), &mut scratch);
+            for (y, row) in hits.iter().enumerate() {
+                for (x, hit) in row.iter().enumerate() {
+                    let ray: Ray = ray(x as f64 + place.0, y as f64 + place.1);
+                    let alone = if x < width && y < height {
+                        expected.first_body_hit(&ray, f64::INFINITY, &mut Scratch::default())
+                    } else {
+                        None
+                    };
+                    prop_assert_eq!(*hit, alone, "{:?}, {:?}", backend, ray);
+                }
+            }
+        }
+    }
+    prop_assert_eq!(scratch.counters.leaks, 0);
+    Ok(backends)
+}
+
+fn projection() -> impl Strategy<Value = Projection> {
+    prop_oneof![
+        prop::sample::select(vec![1.0, 20.0, 53.13, 120.0]).prop_map(|fov_deg| Projection::Perspective { fov_deg }),
+        prop::sample::select(vec![0.5, 4.0, 16.0]).prop_map(|height| Projection::Orthographic { height }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    /// From everywhere, also from within and from the surface; through lattice points, where edges and corners are.
+    #[test]
+    fn tiles_see_what_rays_see(
+        bodies in prop::collection::vec(lattice_solid(), 1..3),
+        eye in lattice_point(),
+        back in prop::sample::select(vec![0.0, 1.0, 7.5, 40.0]),
+        at in lattice_point(),
+        projection in projection(),
+        in_the_middle in any::<bool>(),
+        leaf_surfaces in 0_usize..5,
+        depth in prop::option::of(0_u32..7),
+    ) {
+        let forward = (at - eye).normalized().unwrap_or(Vec3::X);
+        let camera = Camera { eye: eye - forward * back, at, up: Vec3::Z, projection };
+        let place = if in_the_middle { (0.5, 0.5) } else { (0.0, 0.0) };
+        compare(&bodies, BuildOptions { leaf_surfaces, depth }, &camera, place)?;
+    }
+}
+
+#[test]
+fn usual_pictures_are_traced_in_tiles() {
+    let drilled = Solid::block() - Solid::cylinder().scale([0.3, 0.3, 1.0]).translate([0.5, 0.5, 0.0]);
+    let floor = Solid::half_space().rotate([180.0, 0.0, 0.0]);
+    let available = Backend::ALL.into_iter().filter(|backend| backend.is_available()).count();
+    for projection in [Projection::Perspective { fov_deg: 30.0 }, Projection::Orthographic { height: 2.0 }] {
+        let camera = Camera { eye: Vec3::new(3.0, -4.0, 2.5), at: Vec3::splat(0.5), up: Vec3::Z, projection };
+        let bodies = [drilled.clone(), floor.clone() + Solid::sphere().translate([0.0, 2.0, 1.0])];
+        assert_eq!(
+            compare(&bodies, BuildOptions::default(), &camera, (0.5, 0.5)).expect("all see the same"),
+            available
+        );
+    }
+}
