@@ -87,12 +87,12 @@ fn some_solid() -> impl Strategy<Value = Solid> {
 }
 
 /// A ray between two points given in eighths of the root cube, so that edges, corners and faces are met exactly; or nearly.
-fn ray_through(octree: &Octree, from: [i32; 3], to: [i32; 3], nudge: [f64; 3]) -> Option<Ray> {
+fn ray_through(octree: &Octree, from: [i32; 3], to: [i32; 3], nudge: [f64; 3], length: f64) -> Option<Ray> {
     let place = |p: [i32; 3]| octree.center + Vec3::from(p.map(|i| f64::from(i) / 8.0)) * octree.half;
     let origin = place(from);
-    let direction = place(to) - origin + Vec3::from(nudge) * octree.half;
+    let direction = (place(to) - origin + Vec3::from(nudge) * octree.half) * length;
     // Tracers make directions fit before they walk.
-    Ray::checked(origin, direction).filter(|_| direction.max_abs() > 1e-30)
+    Ray::checked(origin, direction).filter(|_| (1e-30..1e30).contains(&direction.max_abs()))
 }
 
 fn tiny() -> impl Strategy<Value = f64> {
@@ -107,9 +107,11 @@ proptest! {
         solid in some_solid(), depth in 1u32..5,
         from in prop::array::uniform3(-12i32..=12), to in prop::array::uniform3(-8i32..=8),
         nudge in prop::array::uniform3(tiny()), starts_inside in any::<bool>(),
+        // As short and as long as directions get.
+        length in prop_oneof![4 => Just(1.0), 1 => Just(1e-28), 1 => Just(1e28)],
     ) {
         let Some(octree) = octree_of(&solid, depth) else { return Ok(()) };
-        let Some(ray) = ray_through(&octree, from, to, nudge) else { return Ok(()) };
+        let Some(ray) = ray_through(&octree, from, to, nudge, length) else { return Ok(()) };
         let Some((t_in, t_out)) = root_interval(&octree, &ray) else { return Ok(()) };
         let t_in = if starts_inside { t_in.max(0.0) } else { t_in };
         if t_in >= t_out {
