@@ -67,7 +67,7 @@ impl fmt::Display for RayReport {
         let [ox, oy, oz] = self.ray.origin.to_array();
         let [dx, dy, dz] = self.ray.direction.to_array();
         writeln!(f, "ray from {ox} {oy} {oz} along {dx} {dy} {dz}")?;
-        writeln!(f, "cells:")?;
+        writeln!(f, "cells:{}", if self.cells.is_empty() { " none" } else { "" })?;
         for cell in &self.cells {
             let size = cell.bounds.size().x;
             let c = cell.bounds.center();
@@ -80,7 +80,7 @@ impl fmt::Display for RayReport {
                 writeln!(f, "    {line}")?;
             }
         }
-        writeln!(f, "spans:")?;
+        writeln!(f, "spans:{}", if self.spans.is_empty() { " none" } else { "" })?;
         let end = |f: &mut fmt::Formatter<'_>, hit: &Option<Hit>, none: &str| match hit {
             Some(hit) => write!(f, "{} (surface {}, leaf {})", hit.t, hit.surface, hit.leaf),
             None => f.write_str(none),
