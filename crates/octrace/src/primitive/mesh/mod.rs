@@ -133,7 +133,8 @@ impl Mesh {
                 let MeshTriangle { corners, surface } = self.triangles[triangle as usize];
                 let corners = corners.map(|i| self.points[i as usize]);
                 if let Some(entering) = line.crosses(corners) {
-                    let (low, high) = reach(ray, &Bounds::around(corners), self.slack);
+                    let (low, high) =
+                        within(ray, corners, self.slack, reach(ray, &Bounds::around(corners), self.slack));
                     let t = surface_t(surface.surface);
                     let t = if t.is_finite() { t.max(low).min(high) } else { low + 0.5 * (high - low) };
                     out.push(Crossing { t, entering, triangle });
@@ -224,6 +225,24 @@ fn reach(ray: &Ray, bounds: &Bounds, slack: f64) -> (f64, f64) {
         if a.is_finite() && b.is_finite() {
             low = low.max(a).min(high);
             high = high.min(b).max(low);
+        }
+    }
+    (low, high)
+}
+
+/// What is left of an interval of parameters between the triangle's edges, moved outwards by `slack`. For a line that all
+/// but lies in the triangle's plane its box does not tell: the line may leave the triangle and still be in the box.
+fn within(ray: &Ray, corners: [Vec3; 3], slack: f64, (mut low, mut high): (f64, f64)) -> (f64, f64) {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    for i in 0..3 {
+        // Positive on the triangle's side of the edge.
+        let inwards = normal.cross(corners[(i + 1) % 3] - corners[i]);
+        let slope = inwards.dot(ray.direction);
+        let t = -(inwards.dot(ray.origin - corners[i]) + slack * inwards.length()) / slope;
+        if t.is_finite() && slope > 0.0 {
+            low = low.max(t).min(high);
+        } else if t.is_finite() {
+            high = high.min(t).max(low);
         }
     }
     (low, high)
