@@ -1,0 +1,72 @@
+//! `octrace bench`: how fast this machine traces.
+
+use crate::args::BenchArgs;
+use crate::bench::{self, BenchScene, Plan, Row};
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{say_error, write_stdout};
+use crate::session::Session;
+use std::path::Path;
+
+/// Measures the files, or the scenes that come with the program. Goes on after a file that cannot be read, and fails in
+/// the end.
+pub fn run(args: &BenchArgs, session: &Session) -> Result<(), Failure> {
+    let plan = plan(args);
+    let (mut rows, mut trouble) = (Vec::new(), None);
+    for file in &args.files {
+        let scene = match from_file(file, args, session) {
+            Ok(scene) => scene,
+            Err(Failure::Interrupted) => return Err(Failure::Interrupted),
+            Err(failure) => {
+                if failure.wants_message() {
+                    say_error(&failure.to_string());
+                }
+                trouble = Some(Failure::Input);
+                continue;
+            }
+        };
+        rows.push(bench::measure(&scene, &plan, session)?);
+    }
+    for scene in names(args).into_iter().filter_map(bench::built_in) {
+        rows.push(bench::measure(&scene, &plan, session)?);
+    }
+    write_stdout(text(&rows, args).as_bytes())?;
+    let leaks: u64 = rows.iter().map(|row| row.leaks).sum();
+    if leaks > 0 {
+        return Err(Failure::NoAnswer(format!(
+            "{leaks} rays met contradicting cells: a defect of octrace, worth reporting"
+        )));
+    }
+    trouble.map_or(Ok(()), Err)
+}
+
+fn plan(args: &BenchArgs) -> Plan {
+    Plan {
+        repeat: args.repeat,
+        threads: args.trace.threads(),
+        size_px: (args.size.width_px, args.size.height_px),
+        read: args.read.options(),
+        // Every scene has its own import tolerance.
+        tracer: args.trace.options(0.0),
+    }
+}
+
+fn from_file(file: &Path, args: &BenchArgs, session: &Session) -> Result<BenchScene, Failure> {
+    let (source, loaded) = input::load(file, &args.read, session)?;
+    Ok(BenchScene { name: source.name().into(), scene: loaded.scene, source: Some(source) })
+}
+
+/// The scenes asked for, each once; all where neither scenes nor files are named.
+fn names(args: &BenchArgs) -> Vec<&'static str> {
+    let mut names: Vec<&str> = Vec::new();
+    for name in args.scenes.iter().flat_map(|scenes| scenes.0.iter().copied()) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    if names.is_empty() && args.files.is_empty() { bench::default_names(args.quick) } else { names }
+}
+
+fn text(rows: &[Row], args: &BenchArgs) -> String {
+    if args.json { serde_json::to_string_pretty(rows).expect("rows are plain data") + "\n" } else { bench::table(rows) }
+}
