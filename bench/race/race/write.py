@@ -70,6 +70,9 @@ def fidget(scene: Scene, near: float, far: float) -> str:
 
 # ---- POV-Ray
 
+# From this line on a file is solids.
+SOLIDS = "// solids"
+
 
 def pov(scene: Scene) -> str:
     """The scene as one writes it."""
@@ -83,13 +86,13 @@ def pov_cells(scene: Scene) -> str | None:
     if len(cut) != len(scene.parts):
         return None
     objects = [pov_node(node, pov_material(material)) for material, nodes in cut for node in nodes]
-    return "\n".join(pov_head(scene) + pov_lights(scene) + objects) + "\n"
+    return "\n".join([*pov_head(scene), *pov_lights(scene), SOLIDS, *objects]) + "\n"
 
 
 def pov_normals(scene: Scene, text: str) -> str:
     """The same solids, white, under a red light from the right, a green one from above and a blue one from the viewer, all
     far away: what is seen is the normal, as far as it is positive."""
-    head, solids = pov_head(scene, background=(0.0, 0.0, 0.0)), text.split("// solids\n")[1]
+    head, solids = pov_head(scene, background=(0.0, 0.0, 0.0)), text.split(SOLIDS + "\n")[1]
     right, up, ahead = (unit(v) for v in scene.camera.frame())
     far = 1e6
     for toward, color in ((right, "<1,0,0>"), (up, "<0,1,0>"), (tuple(-c for c in ahead), "<0,0,1>")):
@@ -129,6 +132,7 @@ def pov_parts(scene: Scene) -> Iterator[str]:
     """Unions at the top are written as objects of their own, as one would, so that each is bounded by itself."""
     copied: dict[int, str] = {}
     objects = []
+    yield SOLIDS
     for material, node in scene.parts:
         children = node.children if isinstance(node, Combined) and node.op == "union" else (node,)
         for child in children:
@@ -139,7 +143,6 @@ def pov_parts(scene: Scene) -> Iterator[str]:
                 objects.append(f"object {{ {copied[id(child.node)]} translate {angled(child.offset)} }}")
             else:
                 objects.append(pov_node(child, pov_material(material)))
-    yield "// solids"
     yield from objects
 
 
