@@ -137,16 +137,23 @@ def hits_of(runner: Runner, folder: Path) -> np.ndarray:
 def rounds(turns: list[Turn], programs: Programs) -> None:
     """All by turns, there and back, so that what the machine does besides meets all alike. What takes long is timed once."""
     slow = programs.patience_s / programs.repeat
+    left = list(turns)
     for number in range(programs.repeat):
-        for turn in turns if number % 2 == 0 else reversed(turns):
-            entry = turn.entry
-            if entry.frames and max(entry.frames) > slow:
-                continue
-            entry.frames.append(turn.frame().cpu_s)
-            if turn.shadow:
-                took = turn.shadow()
-                entry.shadows.append(took.cpu_s)
-                entry.shadow_rays = took.rays or 0
+        for turn in left[:] if number % 2 == 0 else left[::-1]:
+            try:
+                take(turn)
+            except TooSlow as reason:
+                turn.entry.note = str(reason)
+                left.remove(turn)
+        left = [turn for turn in left if max(turn.entry.frames, default=0.0) <= slow]
+
+
+def take(turn: Turn) -> None:
+    turn.entry.frames.append(turn.frame().cpu_s)
+    if turn.shadow:
+        took = turn.shadow()
+        turn.entry.shadows.append(took.cpu_s)
+        turn.entry.shadow_rays = took.rays or 0
 
 
 # ---- the rivals
@@ -205,7 +212,6 @@ def enter_embreex(scene, folder, reference, entry, programs, runners, turns) -> 
 
 
 def enter_fidget(scene, folder, reference, entry, programs, runners, turns) -> None:
-    _, _, ahead = scene.camera.frame()
     depths = distances_ahead(reference, scene)
     listing = folder / "scene.txt"
     listing.write_text(write.fidget(scene, 0.99 * depths[0], 1.01 * depths[1]))

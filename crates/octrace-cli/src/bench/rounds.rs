@@ -1,6 +1,6 @@
 //! Timing one scene: everything has its turn in every round, so that whatever the machine does besides meets all alike.
 
-use super::clock::{Took, timed};
+use super::clock::timed;
 use super::picture::Picture;
 use super::results::{Row, Spreads};
 use super::scenes::BenchScene;
@@ -12,7 +12,7 @@ use octrace::compile::compile;
 use octrace::exec::{Exec, Silent};
 use octrace::film::{Background, RenderStats, View, render};
 use octrace::model::default_lights;
-use octrace::{Camera, Light, Scene, Solid, Tracer, TracerOptions};
+use octrace::{Scene, Solid, Tracer, TracerOptions};
 use octrace_read::{ReadOptions, read_scene};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -38,13 +38,12 @@ const MAX_BOUNCES: u32 = 8;
 /// What takes longer than this is built in the first round only.
 const LONG_BUILD_S: f64 = 1.0;
 
-/// Each round's values, in seconds.
+/// Each round's values, in seconds of processor time.
 #[derive(Debug, Default)]
 struct Times {
     parse: Vec<f64>,
     compile: Vec<f64>,
     build: Vec<f64>,
-    /// One thread, by processor time.
     picture: Vec<f64>,
     /// One thread over several, by the wall's clock.
     speedup: Vec<f64>,
@@ -57,59 +56,165 @@ pub fn measure(scene: &BenchScene, plan: &Plan, session: &Session) -> Result<Row
     let progress = session.progress("preparing");
     let exec = Exec { threads: 1, cancel: session.interrupt.token(), progress: Arc::new(Silent) };
     let _listening = session.interrupt.listen();
-    let bench = Bench { scene, plan, session, exec, bodies: scene.scene.bodies().solids };
+    let workshop = Workshop { scene, plan, exec: &exec, bodies: scene.scene.bodies().solids };
     let mut times = Times::default();
 
     progress.begin("measuring", u64::from(plan.repeat) + 1);
-    let tracer = bench.build(&mut times)?;
-    let camera = Framing::default().camera_for(&tracer, scene.scene.camera, plan.size_px);
-    let frames = Frames::new(&scene.scene, camera, plan.size_px);
-    let picture = Picture::new(&tracer, &camera, frames.light, plan.size_px);
-    let mut pixels = picture.pixels();
-    // Not timed: so that caches and tables are warm.
-    let mut leaks = picture.draw(&mut pixels, plan.threads, &session.interrupt).leaks;
+    let tracer = workshop.build(&mut times)?;
+    let mut studio = Studio::new(&scene.scene, &tracer, plan, session, &exec);
+    studio.warm_up()?;
     progress.advance(1);
-    let (mut rays, mut one_light) = (RenderStats::default(), RenderStats::default());
     for round in 0..plan.repeat {
-        bench.read(&mut times);
+        workshop.read(&mut times);
         if round > 0 && times.build[0] < LONG_BUILD_S {
-            bench.build(&mut times)?;
+            workshop.build(&mut times)?;
         }
-        let one = bench.picture(&picture, &mut pixels, 1)?;
-        times.picture.push(one.cpu_s);
-        if plan.threads > 1 {
-            let several = bench.picture(&picture, &mut pixels, plan.threads)?;
-            times.speedup.push(one.wall_s / several.wall_s.max(f64::MIN_POSITIVE));
-        }
-        one_light = bench.frame(&frames.lit_once, &tracer, &frames.view_of_one_bounce(), &mut times.shadowed)?;
-        rays = bench.frame(&scene.scene, &tracer, &frames.view, &mut times.frame)?;
-        leaks += rays.counters.leaks;
+        studio.pictures(&mut times)?;
+        studio.frames(&mut times)?;
         progress.advance(1);
     }
     progress.end();
+    Ok(row(scene, &tracer, &studio, &times, plan))
+}
 
+/// From text to tracer.
+struct Workshop<'a> {
+    scene: &'a BenchScene,
+    plan: &'a Plan,
+    exec: &'a Exec,
+    bodies: Vec<Solid>,
+}
+
+impl Workshop<'_> {
+    /// Reads the file again, if there is one.
+    fn read(&self, times: &mut Times) {
+        if let Some(source) = &self.scene.source {
+            let (_, took) = timed(|| black_box(read_scene(source, &self.plan.read)));
+            times.parse.push(took.cpu_s);
+        }
+    }
+
+    /// Compiles; and compiles and builds.
+    fn build(&self, times: &mut Times) -> Result<Tracer, Failure> {
+        let options = TracerOptions { snap: self.scene.scene.snap, ..self.plan.tracer };
+        let (_, took) = timed(|| black_box(compile(&self.bodies, options.snap)));
+        times.compile.push(took.cpu_s);
+        let (tracer, took) = timed(|| Tracer::build_bodies(&self.bodies, &options, self.exec));
+        times.build.push(took.cpu_s);
+        Ok(tracer?)
+    }
+}
+
+/// From tracer to pictures.
+struct Studio<'a> {
+    scene: &'a Scene,
+    /// The same with the light of the plain picture only.
+    lit_once: Scene,
+    tracer: &'a Tracer,
+    plan: &'a Plan,
+    session: &'a Session,
+    exec: &'a Exec,
+    picture: Picture<'a>,
+    pixels: Vec<f32>,
+    view: View,
+    /// Camera and shadow rays of the scene lit once.
+    shadowed_rays: u64,
+    /// What was counted in the last whole frame.
+    counted: RenderStats,
+    leaks: u64,
+}
+
+impl<'a> Studio<'a> {
+    fn new(scene: &'a Scene, tracer: &'a Tracer, plan: &'a Plan, session: &'a Session, exec: &'a Exec) -> Self {
+        let camera = Framing::default().camera_for(tracer, scene.camera, plan.size_px);
+        let lights = if scene.lights.is_empty() { default_lights(&camera) } else { scene.lights.clone() };
+        let light = lights[0];
+        let picture = Picture::new(tracer, &camera, light, plan.size_px);
+        let (width_px, height_px) = plan.size_px;
+        let background = Background::Scene;
+        Self {
+            scene,
+            lit_once: Scene { lights: vec![light], ..scene.clone() },
+            tracer,
+            plan,
+            session,
+            exec,
+            pixels: picture.pixels(),
+            picture,
+            view: View { camera, width_px, height_px, samples: 1, max_bounces: MAX_BOUNCES, background },
+            shadowed_rays: 0,
+            counted: RenderStats::default(),
+            leaks: 0,
+        }
+    }
+
+    /// One picture that is not timed, so that caches and tables are warm.
+    fn warm_up(&mut self) -> Result<(), Failure> {
+        self.draw(self.plan.threads).map(|_| ())
+    }
+
+    /// The plain picture, by one thread and by several.
+    fn pictures(&mut self, times: &mut Times) -> Result<(), Failure> {
+        let (one_cpu_s, one_wall_s) = self.draw(1)?;
+        times.picture.push(one_cpu_s);
+        if self.plan.threads > 1 {
+            let (_, several_wall_s) = self.draw(self.plan.threads)?;
+            times.speedup.push(one_wall_s / several_wall_s.max(f64::MIN_POSITIVE));
+        }
+        Ok(())
+    }
+
+    /// Draws the plain picture; seconds of processor time, and on the wall.
+    fn draw(&mut self, threads: usize) -> Result<(f64, f64), Failure> {
+        let (counters, took) = timed(|| self.picture.draw(&mut self.pixels, threads, &self.session.interrupt));
+        black_box(&self.pixels);
+        self.leaks += counters.leaks;
+        if self.session.interrupt.happened() { Err(Failure::Interrupted) } else { Ok((took.cpu_s, took.wall_s)) }
+    }
+
+    /// The frame with one light and nothing mirrored, and the whole frame, which begins with finding where to look from.
+    fn frames(&mut self, times: &mut Times) -> Result<(), Failure> {
+        let view = View { max_bounces: 0, ..self.view };
+        let (rendered, took) = timed(|| render(&self.lit_once, self.tracer, &view, self.exec));
+        let (_, stats) = rendered?;
+        self.shadowed_rays = stats.rays.camera + stats.rays.shadow;
+        times.shadowed.push(took.cpu_s);
+
+        let (rendered, took) = timed(|| {
+            black_box(Framing::default().camera_for(self.tracer, self.scene.camera, self.plan.size_px));
+            render(self.scene, self.tracer, &self.view, self.exec)
+        });
+        self.counted = rendered?.1;
+        self.leaks += self.counted.counters.leaks;
+        times.frame.push(took.cpu_s);
+        Ok(())
+    }
+}
+
+fn row(scene: &BenchScene, tracer: &Tracer, studio: &Studio<'_>, times: &Times, plan: &Plan) -> Row {
     let stats = tracer.stats();
-    let spreads = spreads(&times, frames.pixels(), one_light.rays.camera + one_light.rays.shadow);
-    Ok(Row {
+    let (width, height) = plan.size_px;
+    let spread = spreads(times, u64::from(width) * u64::from(height), studio.shadowed_rays);
+    Row {
         scene: scene.name.clone(),
         primitives: stats.primitives,
         surfaces: stats.surfaces,
         bytes: stats.octree.map_or(0, |octree| octree.bytes),
         file_bytes: scene.source.as_ref().map(|source| source.text().len()),
-        parse_s: spreads.parse_s.map(|spread| spread.median),
-        compile_s: spreads.compile_s.median,
-        build_s: spreads.build_s.median,
-        mrays_per_s: spreads.mrays_per_s.median,
+        parse_s: spread.parse_s.map(|spread| spread.median),
+        compile_s: spread.compile_s.median,
+        build_s: spread.build_s.median,
+        mrays_per_s: spread.mrays_per_s.median,
         limit_mrays_per_s: None,
         ratio_to_limit: None,
         threads: plan.threads,
-        speedup: spreads.speedup.map(|spread| spread.median),
-        shadowed_mrays_per_s: spreads.shadowed_mrays_per_s.median,
-        frame_s: spreads.frame_s.median,
-        frame_rays: (&rays.rays).into(),
-        leaks,
-        spread: spreads,
-    })
+        speedup: spread.speedup.map(|spread| spread.median),
+        shadowed_mrays_per_s: spread.shadowed_mrays_per_s.median,
+        frame_s: spread.frame_s.median,
+        frame_rays: (&studio.counted.rays).into(),
+        leaks: studio.leaks,
+        spread,
+    }
 }
 
 fn spreads(times: &Times, pixels: u64, shadowed_rays: u64) -> Spreads {
@@ -127,76 +232,5 @@ fn spreads(times: &Times, pixels: u64, shadowed_rays: u64) -> Spreads {
         speedup: some(&times.speedup),
         shadowed_mrays_per_s: rates(&times.shadowed, shadowed_rays),
         frame_s: seconds(&times.frame),
-    }
-}
-
-/// What is drawn beside the plain picture.
-struct Frames {
-    view: View,
-    /// The light of the plain picture.
-    light: Light,
-    /// The scene with this light only.
-    lit_once: Scene,
-}
-
-impl Frames {
-    fn new(scene: &Scene, camera: Camera, (width_px, height_px): (u32, u32)) -> Self {
-        let lights = if scene.lights.is_empty() { default_lights(&camera) } else { scene.lights.clone() };
-        let light = lights[0];
-        let view =
-            View { camera, width_px, height_px, samples: 1, max_bounces: MAX_BOUNCES, background: Background::Scene };
-        Self { view, light, lit_once: Scene { lights: vec![light], ..scene.clone() } }
-    }
-
-    fn view_of_one_bounce(&self) -> View {
-        View { max_bounces: 0, ..self.view }
-    }
-
-    fn pixels(&self) -> u64 {
-        u64::from(self.view.width_px) * u64::from(self.view.height_px)
-    }
-}
-
-/// One scene that is being measured.
-struct Bench<'a> {
-    scene: &'a BenchScene,
-    plan: &'a Plan,
-    session: &'a Session,
-    /// One thread.
-    exec: Exec,
-    bodies: Vec<Solid>,
-}
-
-impl Bench<'_> {
-    /// Reads the file again.
-    fn read(&self, times: &mut Times) {
-        if let Some(source) = &self.scene.source {
-            let (_, took) = timed(|| black_box(read_scene(source, &self.plan.read)));
-            times.parse.push(took.cpu_s);
-        }
-    }
-
-    /// Compiles, and builds.
-    fn build(&self, times: &mut Times) -> Result<Tracer, Failure> {
-        let options = TracerOptions { snap: self.scene.scene.snap, ..self.plan.tracer };
-        let (_, took) = timed(|| black_box(compile(&self.bodies, options.snap)));
-        times.compile.push(took.cpu_s);
-        let (tracer, took) = timed(|| Tracer::build_bodies(&self.bodies, &options, &self.exec));
-        times.build.push(took.cpu_s);
-        Ok(tracer?)
-    }
-
-    fn picture(&self, picture: &Picture<'_>, pixels: &mut [f32], threads: usize) -> Result<Took, Failure> {
-        let (_, took) = timed(|| picture.draw(pixels, threads, &self.session.interrupt));
-        black_box(pixels);
-        if self.session.interrupt.happened() { Err(Failure::Interrupted) } else { Ok(took) }
-    }
-
-    fn frame(&self, scene: &Scene, tracer: &Tracer, view: &View, times: &mut Vec<f64>) -> Result<RenderStats, Failure> {
-        let (rendered, took) = timed(|| render(scene, tracer, view, &self.exec));
-        let (film, stats) = rendered?;
-        black_box(film);
-        times.push(took.cpu_s);
-        Ok(stats)
     }
 }

@@ -6,10 +6,11 @@ use crate::failure::Failure;
 use crate::input;
 use crate::output::{say_error, write_stdout};
 use crate::session::Session;
+use octrace_read::Severity;
 use std::path::Path;
 
-/// Measures the files, or the scenes that come with the program. Goes on after a file that cannot be read, and fails in
-/// the end.
+/// Measures the files, or the scenes that come with the program. Goes on after a file that cannot be measured, and fails
+/// in the end.
 pub fn run(args: &BenchArgs, session: &Session) -> Result<(), Failure> {
     let plan = plan(args);
     let (mut rows, mut trouble) = (Vec::new(), None);
@@ -18,9 +19,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<(), Failure> {
             Ok(scene) => scene,
             Err(Failure::Interrupted) => return Err(Failure::Interrupted),
             Err(failure) => {
-                if failure.wants_message() {
-                    say_error(&failure.to_string());
-                }
+                say_error(&failure.to_string());
                 trouble = Some(Failure::Input);
                 continue;
             }
@@ -52,8 +51,15 @@ fn plan(args: &BenchArgs) -> Plan {
 }
 
 fn from_file(file: &Path, args: &BenchArgs, session: &Session) -> Result<BenchScene, Failure> {
-    let (source, loaded) = input::load(file, &args.read, session)?;
-    Ok(BenchScene { name: source.name().into(), scene: loaded.scene, source: Some(source) })
+    let input = input::open(file, &args.read, session)?;
+    let name = input.source.name().to_owned();
+    let Some(loaded) = input.loaded else {
+        // What is wrong with many files would bury what was measured.
+        let errors = input.diagnostics.iter().filter(|found| found.severity == Severity::Error).count();
+        let errors = if errors == 1 { "it has 1 error".to_owned() } else { format!("it has {errors} errors") };
+        return Err(Failure::NoAnswer(format!("{name} is left out: {errors}, which `octrace check` lists")));
+    };
+    Ok(BenchScene { name, scene: loaded.scene, source: Some(input.source) })
 }
 
 /// The scenes asked for, each once; all where neither scenes nor files are named.
