@@ -5,8 +5,8 @@ mod common;
 use common::{cases, lattice_point, lattice_solid};
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
-use octrace::trace::{Backend, Scratch, TILE_PX};
-use octrace::{Accel, Bounds, Camera, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
+use octrace::trace::{Backend, RayTile, Scratch, TILE_PX};
+use octrace::{Accel, Camera, Projection, Solid, Tracer, TracerOptions, Vec3};
 use proptest::prelude::*;
 
 const SIZE_PX: u32 = TILE_PX as u32;
@@ -21,27 +21,20 @@ fn compare(bodies: &[Solid], octree: BuildOptions, camera: &Camera, place: (f64,
     let expected = tracer(bodies, &TracerOptions { accel: Accel::None, ..TracerOptions::default() });
     let tested = tracer(bodies, &TracerOptions { octree, ..TracerOptions::default() });
     let rays = camera.rays(SIZE_PX, SIZE_PX);
-    let ray = |x: f64, y: f64| rays.ray(x, y);
-    let size = f64::from(SIZE_PX);
-    let corners = [(0.0, 0.0), (0.0, size), (size, 0.0), (size, size)].map(|(x, y)| ray(x, y).origin);
     let mut scratch = Scratch::default();
+    let mut tile = RayTile::default();
     let mut backends = 0;
     for backend in Backend::ALL.into_iter().filter(|backend| backend.is_available()) {
-        let Some(tiles) = tested.tiles(&Bounds::around(corners), backend) else { continue };
+        let Some(tiles) = tested.tiles(&rays, (SIZE_PX, SIZE_PX), backend) else { continue };
         backends += 1;
         // A tile at the picture's edge has fewer pixels.
-        for (width, height) in [(TILE_PX, TILE_PX), (TILE_PX - 3, 5)] {
-            let hits = tiles.hits(ray, place, (width, height), &mut scratch);
-            for (y, row) in hits.iter().enumerate() {
-                for (x, hit) in row.iter().enumerate() {
-                    let ray: Ray = ray(x as f64 + place.0, y as f64 + place.1);
-                    let alone = if x < width && y < height {
-                        expected.first_body_hit(&ray, f64::INFINITY, &mut Scratch::default())
-                    } else {
-                        None
-                    };
-                    prop_assert_eq!(*hit, alone, "{:?}, {:?}", backend, ray);
-                }
+        for (width, height) in [(SIZE_PX, SIZE_PX), (SIZE_PX - 3, 5)] {
+            tiles.trace((0, 0), (width, height), place, &mut tile, &mut scratch);
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                let ray = rays.ray(f64::from(x) + place.0, f64::from(y) + place.1);
+                let alone = expected.first_body_hit(&ray, f64::INFINITY, &mut Scratch::default());
+                let hit = tiles.hit(&tile, (x as usize, y as usize));
+                prop_assert_eq!(hit, alone, "{:?}, {:?}", backend, ray);
             }
         }
     }
