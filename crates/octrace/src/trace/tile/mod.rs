@@ -25,6 +25,7 @@ use beam::Beam;
 use dispatch::Task;
 use lanes::{Isa, LANES};
 use packet::Packet;
+use program::Solved;
 use walk::{Common, Own, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
@@ -52,6 +53,7 @@ pub struct RayTile {
     packets: [Packet; PACKETS],
     beam: Beam,
     waiting: [Waiting; Waiting::MOST],
+    solved: Solved,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
 }
@@ -62,6 +64,7 @@ impl Default for RayTile {
             packets: [Packet::default(); PACKETS],
             beam: Beam::default(),
             waiting: [Waiting::NOTHING; Waiting::MOST],
+            solved: Solved::default(),
             alone: Vec::new(),
         }
     }

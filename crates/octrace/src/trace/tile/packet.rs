@@ -1,6 +1,8 @@
 //! Eight rays on their way.
 
+use super::crossing::Rays;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
+use super::walk::Origins;
 use super::{ACROSS, PACKET_PX};
 use crate::compile::Catalog;
 use crate::geom::{Ray, Vec3};
@@ -69,6 +71,13 @@ impl Packet {
         self.t = F64s::<I>::infinity().stored();
         self.wanted = wanted;
         self.given_up = 0;
+    }
+
+    /// Its rays; `eye` is where they start if they start at one point.
+    #[inline(always)]
+    pub fn rays<I: Isa, O: Origins<I>>(&self, eye: Vec3) -> Rays<I, O::Number> {
+        let [x, y, z] = &self.direction;
+        Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
     /// Rays meet something, unless they have met something before.

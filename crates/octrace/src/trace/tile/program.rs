@@ -4,7 +4,7 @@
 //! registers as a whole. Deeper programs are for scalar code.
 
 use super::crossing::{Crossed, Rays, plane, quadric};
-use super::lanes::{F64s, Isa, LANES, Mask, Number};
+use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored};
 use crate::compile::{Catalog, Word, node_end};
 use crate::surface::Surface;
 
@@ -80,63 +80,126 @@ pub(super) fn crossed<I: Isa, N: Number<I>>(catalog: &Catalog, word: u32, rays: 
     .negated(negated)
 }
 
-/// The crossings of eight rays with the literals of a program.
-pub(super) struct Solved<I: Isa> {
-    rows: [Crossed<I>; MAX_WORDS],
+/// So many packets are solved for one program before it is looked at what follows.
+pub(super) const CHUNK: usize = 8;
+
+/// A [`Crossed`] in memory.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+struct Row {
+    a: Stored,
+    b: Stored,
+    starts_inside: u8,
 }
 
-impl<I: Isa> Solved<I> {
-    #[inline(always)]
-    pub fn empty() -> Self {
-        Self { rows: [Crossed::nowhere(); MAX_WORDS] }
-    }
+/// The crossings of a few packets with the literals of a program: one literal after another, since finding out what it is
+/// takes as long as crossing eight rays with it.
+#[derive(Debug)]
+pub(super) struct Solved {
+    rows: Box<[[Row; CHUNK]; MAX_WORDS]>,
+}
 
-    /// Crosses the rays with every literal of a plain program.
+impl Default for Solved {
+    fn default() -> Self {
+        Self { rows: Box::new([[Row::default(); CHUNK]; MAX_WORDS]) }
+    }
+}
+
+impl Solved {
+    /// Crosses some packets' rays with every literal of a plain program.
     #[inline(always)]
-    pub fn solve<N: Number<I>>(&mut self, catalog: &Catalog, words: &[u32], rays: &Rays<I, N>) {
-        for (row, &word) in self.rows.iter_mut().zip(words) {
-            if matches!(Word::decode(word), Word::Literal { .. }) {
-                *row = crossed(catalog, word, rays);
+    pub fn solve<I: Isa, N: Number<I>>(
+        &mut self,
+        catalog: &Catalog,
+        words: &[u32],
+        count: usize,
+        rays: impl Fn(usize) -> Rays<I, N>,
+    ) {
+        for (rows, &word) in self.rows.iter_mut().zip(words) {
+            let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
+            let rows = &mut rows[..count.min(CHUNK)];
+            match surface_of(catalog, word) {
+                Some(Surface::Plane(surface)) => {
+                    for (slot, row) in rows.iter_mut().enumerate() {
+                        *row = Row::new(plane(surface, &rays(slot)).negated(negated));
+                    }
+                }
+                Some(Surface::Quadric(surface)) => {
+                    for (slot, row) in rows.iter_mut().enumerate() {
+                        *row = Row::new(quadric(surface, &rays(slot)).negated(negated));
+                    }
+                }
+                Some(Surface::Torus(_) | Surface::Mesh(_)) | None => {}
             }
         }
     }
 
+    /// A packet, by its place in the chunk, with that program.
+    #[inline(always)]
+    pub fn packet<'a>(&'a self, words: &'a [u32], slot: usize) -> SolvedPacket<'a> {
+        SolvedPacket { rows: &self.rows, words, slot }
+    }
+}
+
+impl Row {
+    #[inline(always)]
+    fn new<I: Isa>(crossed: Crossed<I>) -> Self {
+        let Crossed { starts_inside, a, b } = crossed;
+        Self { a: a.stored(), b: b.stored(), starts_inside: starts_inside.bits() }
+    }
+
+    #[inline(always)]
+    fn crossed<I: Isa>(&self) -> Crossed<I> {
+        let starts_inside = Mask::from_bits(self.starts_inside);
+        Crossed { starts_inside, a: F64s::load(&self.a), b: F64s::load(&self.b) }
+    }
+}
+
+/// The crossings of eight rays with the literals of a program.
+#[derive(Clone, Copy)]
+pub(super) struct SolvedPacket<'a> {
+    rows: &'a [[Row; CHUNK]; MAX_WORDS],
+    words: &'a [u32],
+    slot: usize,
+}
+
+impl SolvedPacket<'_> {
     /// The first parameters `>= t` from which on the program is inside (`wanted`) or outside.
     #[inline(always)]
-    pub fn next(&self, words: &[u32], t: F64s<I>, wanted: bool) -> F64s<I> {
-        self.next_3(words, 0, t, wanted)
+    pub fn next<I: Isa>(&self, t: F64s<I>, wanted: bool) -> F64s<I> {
+        self.next_3(0, t, wanted)
     }
 
     /// How the program's value changes at `t`; see [`Roots::change`](super::super::roots::Roots::change).
     #[inline(always)]
-    pub fn changes(&self, words: &[u32], t: F64s<I>) -> Changes<I> {
-        self.changes_3(words, 0, t)
+    pub fn changes<I: Isa>(&self, t: F64s<I>) -> Changes<I> {
+        self.changes_3(0, t)
     }
 
     #[inline(always)]
-    fn next_0(&self, _words: &[u32], at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
-        self.rows[at].next(t, wanted)
+    fn next_0<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
+        self.rows[at][self.slot].crossed().next(t, wanted)
     }
 
     #[inline(always)]
-    fn changes_0(&self, words: &[u32], at: usize, t: F64s<I>) -> Changes<I> {
-        let row = &self.rows[at];
-        Changes { before: row.before(t), after: row.after(t), words: [words[at]; LANES] }
+    fn changes_0<I: Isa>(&self, at: usize, t: F64s<I>) -> Changes<I> {
+        let row = self.rows[at][self.slot].crossed();
+        Changes { before: row.before(t), after: row.after(t), words: [self.words[at]; LANES] }
     }
 }
 
 /// Functions for programs of one level more than those that they are made of.
 macro_rules! level {
     ($next:ident, $changes:ident, $next_below:ident, $changes_below:ident) => {
-        impl<I: Isa> Solved<I> {
+        impl SolvedPacket<'_> {
             #[inline(always)]
-            fn $next(&self, words: &[u32], at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
-                let is_and = match Word::decode(words[at]) {
-                    Word::Literal { .. } => return self.next_0(words, at, t, wanted),
+            fn $next<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
+                let is_and = match Word::decode(self.words[at]) {
+                    Word::Literal { .. } => return self.next_0(at, t, wanted),
                     Word::And { .. } => true,
                     Word::Or { .. } => false,
                 };
-                let end = node_end(words, at);
+                let end = node_end(self.words, at);
                 // One child is enough, or all must agree.
                 let one = is_and != wanted;
                 let (mut t, mut least) = (t, F64s::infinity());
@@ -144,9 +207,9 @@ macro_rules! level {
                     let start = t;
                     let mut child = at + 1;
                     while child < end {
-                        let next = self.$next_below(words, child, t, wanted);
+                        let next = self.$next_below(child, t, wanted);
                         (t, least) = if one { (t, least.min(next)) } else { (next, least) };
-                        child = node_end(words, child);
+                        child = node_end(self.words, child);
                     }
                     if one {
                         return least;
@@ -158,20 +221,20 @@ macro_rules! level {
             }
 
             #[inline(always)]
-            fn $changes(&self, words: &[u32], at: usize, t: F64s<I>) -> Changes<I> {
-                let is_and = match Word::decode(words[at]) {
-                    Word::Literal { .. } => return self.changes_0(words, at, t),
+            fn $changes<I: Isa>(&self, at: usize, t: F64s<I>) -> Changes<I> {
+                let is_and = match Word::decode(self.words[at]) {
+                    Word::Literal { .. } => return self.changes_0(at, t),
                     Word::And { .. } => true,
                     Word::Or { .. } => false,
                 };
-                let end = node_end(words, at);
+                let end = node_end(self.words, at);
                 let (mut before, mut after) = (Mask::splat(is_and), Mask::splat(is_and));
                 // The first children that change in either direction.
                 let (mut first_in, mut first_out) = ([0; LANES], [0; LANES]);
                 let (mut no_in, mut no_out) = (Mask::splat(true), Mask::splat(true));
                 let mut child = at + 1;
                 while child < end {
-                    let change = self.$changes_below(words, child, t);
+                    let change = self.$changes_below(child, t);
                     let turns = change.before ^ change.after;
                     let (enters, leaves) = (turns & change.after, turns & change.before);
                     first_in = (no_in & enters).select_words(change.words, first_in);
@@ -181,7 +244,7 @@ macro_rules! level {
                         true => (before & change.before, after & change.after),
                         false => (before | change.before, after | change.after),
                     };
-                    child = node_end(words, child);
+                    child = node_end(self.words, child);
                 }
                 Changes { before, after, words: after.select_words(first_in, first_out) }
             }

@@ -11,7 +11,7 @@ use super::lanes::{F64s, Isa, LANES, Vector};
 use super::program::{MAX_LEVELS, MAX_WORDS, surface_of};
 use crate::compile::{Catalog, Word, node_end};
 use crate::geom::Vec3;
-use crate::surface::{CellBox, Plane, Quadric, Surface};
+use crate::surface::{CellBox, Plane, Quadric, QuadricKind, Surface};
 
 /// The eight parts of a beam between two depths, each in a parallelepiped.
 pub(super) struct Parts<I: Isa> {
@@ -41,7 +41,7 @@ impl<I: Isa> Parts<I> {
     #[inline(always)]
     pub fn is_deep(&self, beam: &Beam) -> bool {
         let _ = beam;
-        self.half_depth > 2.0 * self.sides[0].max_abs()
+        self.half_depth > 4.0 * self.sides[0].max_abs()
     }
 
     /// In which parts a plane's inside is everywhere, and in which it is nowhere.
@@ -56,7 +56,7 @@ impl<I: Isa> Parts<I> {
         (height.le(-reach).bits(), height.ge(reach).bits())
     }
 
-    /// As [`Quadric::classify`].
+    /// The same for a quadric; see [`Quadric::classify`].
     #[inline(always)]
     fn quadric(&self, quadric: &Quadric) -> (u8, u8) {
         let map = &quadric.to_local;
@@ -77,38 +77,28 @@ impl<I: Isa> Parts<I> {
             along.y.abs() + F64s::splat(fixed.y),
             along.z.abs() + F64s::splat(fixed.z),
         );
-        let square = |m: F64s<I>, r: F64s<I>| {
-            let (near, far) = ((m.abs() - r).max(F64s::zero()), m.abs() + r);
-            (near * near, far * far)
-        };
-        let (x, y, z) = (square(q.x, reach.x), square(q.y, reach.y), square(q.z, reach.z));
-        let (s_lanes, c0) = (F64s::splat(s), F64s::splat(c0));
-        let sz = if s < 0.0 { (-z.1, -z.0) } else { (s_lanes * z.0, s_lanes * z.1) };
-        let coarse = (x.0 + y.0 + sz.0 + c0, x.1 + y.1 + sz.1 + c0);
-
+        // The mean value form: the parts are thin, and where they are long they are cut.
+        let (s_lanes, c0, two) = (F64s::splat(s), F64s::splat(c0), F64s::splat(2.0));
         let value = q.x * q.x + q.y * q.y + s_lanes * (q.z * q.z) + c0;
-        let two = F64s::splat(2.0);
         let slope = Vector::new(two * q.x, two * q.y, two * s_lanes * q.z);
-        let along_slope = |v: Vec3| slope.dot(Vector::from_one(v)).abs();
-        // The gradient in scene space, for the margin there.
-        let mut linear = slope.dot(along).abs() + along_slope(sides[0]) + along_slope(sides[1]);
-        for axis in 0..3 {
-            linear = linear + along_slope(map.column(axis)) * F64s::splat(self.margin);
-        }
-        let off = two * (q.x.abs() * F64s::splat(rounding.x) + q.y.abs() * F64s::splat(rounding.y) + q.z.abs() * F64s::splat(rounding.z));
-        let linear = linear + off;
+        let along_slope = |v: Vec3| (slope.x * F64s::splat(v.x) + slope.y * F64s::splat(v.y) + slope.z * F64s::splat(v.z)).abs();
+        let extra = margin + rounding;
+        let linear = (slope.x * along.x + slope.y * along.y + slope.z * along.z).abs()
+            + along_slope(sides[0])
+            + along_slope(sides[1])
+            + slope.x.abs() * F64s::splat(extra.x)
+            + slope.y.abs() * F64s::splat(extra.y)
+            + slope.z.abs() * F64s::splat(extra.z);
         let (flat, up) = (reach.x * reach.x + reach.y * reach.y, reach.z * reach.z);
-        let (bulge_low, bulge_high) = match s {
-            1.0 => (F64s::zero(), flat + up),
-            0.0 => (F64s::zero(), flat),
-            _ => (-up, flat),
+        let (bulge_low, bulge_high) = match quadric.kind {
+            QuadricKind::Sphere => (F64s::zero(), flat + up),
+            QuadricKind::Cylinder => (F64s::zero(), flat),
+            QuadricKind::Cone => (-up, flat),
         };
-        let fine = (value - linear + bulge_low, value + linear + bulge_high);
         let zero = F64s::zero();
-        let outside = coarse.0.max(fine.0).ge(zero);
-        let inside = coarse.1.min(fine.1).le(zero);
-        let outside = outside.bits();
-        (inside.bits() & !outside, outside)
+        let outside = (value - linear + bulge_low).ge(zero).bits();
+        let inside = (value + linear + bulge_high).le(zero).bits();
+        (inside & !outside, outside)
     }
 }
 

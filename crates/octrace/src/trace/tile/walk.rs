@@ -5,10 +5,9 @@
 //! share the number, so the stretches leave no gap.
 
 use super::beam::{Beam, PART_PACKETS};
-use super::crossing::Rays;
 use super::lanes::{F64s, Isa, Kernel, LANES, Mask, Number, Stored, Vector};
 use super::packet::Packet;
-use super::program::{Solved, crossed, is_plain, is_short};
+use super::program::{CHUNK, Solved, crossed, is_plain, is_short};
 use super::prune::{Known, Parts, Pruned};
 use super::{PACKETS, RayTile};
 use crate::compile::{Catalog, Constant, Program};
@@ -44,10 +43,10 @@ impl Waiting {
 }
 
 /// Programs are pruned for at least so many packets; for fewer it takes longer than it saves.
-const PRUNED_FOR: u32 = 4;
+const PRUNED_FOR: u32 = 6;
 
 /// A slab is cut in two so many times at most.
-const MAX_CUTS: usize = 5;
+const MAX_CUTS: usize = 4;
 
 /// A cube.
 #[derive(Clone, Copy)]
@@ -104,16 +103,16 @@ impl<I: Isa> Origins<I> for Own {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, waiting, .. } = tile;
+    let RayTile { packets, beam, waiting, solved, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
         packets,
         scratch,
         open: 0,
-        solved: Solved::empty(),
+        solved,
         known: Known::nothing(),
-        origins: PhantomData,
+        machine: PhantomData,
     };
     walk.count_open();
     let bounded = scenery.program.outer == Constant::Everywhere(!scenery.wanted);
@@ -133,9 +132,9 @@ struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     scratch: &'b mut Scratch,
     /// Packets with rays that have met nothing so far.
     open: u32,
-    solved: Solved<I>,
+    solved: &'b mut Solved,
     known: Known,
-    origins: PhantomData<O>,
+    machine: PhantomData<(I, O)>,
 }
 
 /// The stretches of eight rays in a cell.
@@ -143,13 +142,6 @@ struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
 struct Stretch<I: Isa> {
     t_in: F64s<I>,
     t_out: F64s<I>,
-}
-
-impl<I: Isa> Stretch<I> {
-    #[inline(always)]
-    fn stored(self) -> (Stored, Stored) {
-        (self.t_in.stored(), self.t_out.stored())
-    }
 }
 
 impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
@@ -321,19 +313,12 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         Stretch { t_in, t_out }
     }
 
-    #[inline(always)]
-    fn rays(&self, number: usize) -> Rays<I, O::Number> {
-        let packet = &self.packets[number];
-        let [x, y, z] = &packet.direction;
-        Rays { origin: O::of(packet, self.beam.eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
-    }
-
     /// A stretch with a program of one literal, which is plain.
     #[inline(always)]
     fn single(&mut self, word: u32, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
         self.scratch.counters.surface_tests += u64::from(here.bits().count_ones());
         let wanted = self.scenery.wanted;
-        let crossed = crossed(self.scenery.catalog, word, &self.rays(number));
+        let crossed = crossed(self.scenery.catalog, word, &self.packets[number].rays::<I, O>(self.beam.eye));
         let starts_wanted = crossed.starts_inside ^ Mask::splat(!wanted);
         // Two crossings at one place cancel each other.
         let (a, b) = (crossed.a, crossed.b);
@@ -350,25 +335,32 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         }
     }
 
-    /// A stretch with a plain program.
+    /// Stretches of some packets with a plain program.
     #[inline(always)]
-    fn program(&mut self, words: &[u32], number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
-        self.scratch.counters.surface_tests += words.len() as u64 * u64::from(here.bits().count_ones());
-        let wanted = self.scenery.wanted;
-        let rays = self.rays(number);
-        self.solved.solve(self.scenery.catalog, words, &rays);
-        let from = here.select(t_in, F64s::infinity());
-        let t = self.solved.next(words, from, wanted);
-        let met = here & t.le(t_out) & t.lt(F64s::infinity());
-        if !met.any() {
-            return;
-        }
-        let changes = self.solved.changes(words, t);
-        let sound = changes.before ^ changes.after;
-        let leaked = met & !sound;
-        self.packets[number].meet::<I>(met & sound, t, changes.words, self.scenery.body);
-        if leaked.any() {
-            self.packets[number].give_up(leaked.bits());
+    fn program(&mut self, words: &[u32], chunk: &Chunk) {
+        let (wanted, eye) = (self.scenery.wanted, self.beam.eye);
+        let packets = &*self.packets;
+        let rays = |slot: usize| packets[chunk.numbers[slot] as usize].rays::<I, O>(eye);
+        self.solved.solve(self.scenery.catalog, words, chunk.count, rays);
+        for slot in 0..chunk.count {
+            let here = Mask::from_bits(chunk.here[slot]);
+            let (t_in, t_out) = (F64s::load(&chunk.t_in[slot]), F64s::load(&chunk.t_out[slot]));
+            self.scratch.counters.surface_tests += words.len() as u64 * u64::from(here.bits().count_ones());
+            let solved = self.solved.packet(words, slot);
+            let from = here.select(t_in, F64s::infinity());
+            let t = solved.next::<I>(from, wanted);
+            let met = here & t.le(t_out) & t.lt(F64s::infinity());
+            if !met.any() {
+                continue;
+            }
+            let changes = solved.changes::<I>(t);
+            let sound = changes.before ^ changes.after;
+            let leaked = met & (sound ^ Mask::splat(true));
+            let packet = &mut self.packets[chunk.numbers[slot] as usize];
+            packet.meet::<I>(met & sound, t, changes.words, self.scenery.body);
+            if leaked.any() {
+                packet.give_up(leaked.bits());
+            }
         }
     }
 
@@ -376,7 +368,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     #[inline(always)]
     fn one_by_one(&mut self, words: &[u32], number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
         let (t_in, t_out) = (t_in.stored(), t_out.stored());
-        let rays = self.rays(number);
+        let rays = self.packets[number].rays::<I, O>(self.beam.eye);
         let origin = rays.origin.map(|v| v.lanes().stored());
         let Scenery { catalog, wanted, body, .. } = *self.scenery;
         let packet = &mut self.packets[number];
@@ -393,45 +385,71 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// The stretches before the octree's root.
     #[inline(always)]
     fn before(&mut self) {
-        let Octree { center, half, .. } = *self.scenery.octree;
-        for number in 0..PACKETS {
-            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
+        self.outer(|t_in, _, passes| {
             // Rays that miss the root are followed to the end at once.
-            let passes = t_in.le(t_out);
-            let stretch = Stretch { t_in: F64s::zero(), t_out: passes.select(t_in, F64s::infinity()) };
-            let here = F64s::zero().lt(stretch.t_out);
-            self.outer(number, here, stretch);
-        }
-        self.count_open();
+            let t_out = passes.select(t_in, F64s::infinity());
+            (F64s::zero().lt(t_out), Stretch { t_in: F64s::zero(), t_out })
+        });
     }
 
     /// The stretches behind the octree's root.
     #[inline(always)]
     fn behind(&mut self) {
-        let Octree { center, half, .. } = *self.scenery.octree;
-        for number in 0..PACKETS {
-            if self.packets[number].open != 0 {
-                let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
-                self.outer(number, t_in.le(t_out), Stretch { t_in: t_out, t_out: F64s::infinity() });
-            }
-        }
+        self.outer(|_, t_out, passes| (passes, Stretch { t_in: t_out, t_out: F64s::infinity() }));
     }
 
-    /// A stretch outside the octree's root, for some rays.
+    /// Stretches outside the octree's root: what `stretch` makes of those inside.
     #[inline(always)]
-    fn outer(&mut self, number: usize, rays: Mask<I>, stretch: Stretch<I>) {
-        let here = rays & Mask::from_bits(self.packets[number].open);
-        if !here.any() {
-            return;
-        }
-        match &self.scenery.program.outer {
-            Constant::Words(words) if !(is_short(words) && is_plain(self.scenery.catalog, words)) => {
-                self.packets[number].give_up(here.bits());
+    fn outer(&mut self, stretch: impl Fn(F64s<I>, F64s<I>, Mask<I>) -> (Mask<I>, Stretch<I>)) {
+        let Octree { center, half, .. } = *self.scenery.octree;
+        let words = match &self.scenery.program.outer {
+            Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
+            Constant::Everywhere(_) => return,
+            Constant::Words(words) => Some(&**words).filter(|words| is_short(words) && is_plain(self.scenery.catalog, words)),
+        };
+        let mut chunk = Chunk::default();
+        for number in bits_of(self.open) {
+            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
+            let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
+            let here = rays & Mask::from_bits(self.packets[number].open);
+            match words {
+                _ if !here.any() => {}
+                Some(words) => {
+                    chunk.push(number, here, stretch);
+                    if chunk.count == CHUNK {
+                        I::call(Outer { walk: self, words, chunk: &chunk });
+                        chunk.count = 0;
+                    }
+                }
+                None => self.packets[number].give_up(here.bits()),
             }
-            Constant::Words(words) => I::call(Outer { walk: self, words, number, here: here.bits(), stretch: stretch.stored() }),
-            Constant::Everywhere(inside) if *inside == self.scenery.wanted => self.packets[number].give_up(here.bits()),
-            Constant::Everywhere(_) => {}
         }
+        if let Some(words) = words.filter(|_| chunk.count > 0) {
+            I::call(Outer { walk: self, words, chunk: &chunk });
+        }
+        self.count_open();
+    }
+}
+
+/// Some packets' stretches.
+#[derive(Default)]
+struct Chunk {
+    count: usize,
+    numbers: [u8; CHUNK],
+    /// The rays that it is about.
+    here: [u8; CHUNK],
+    t_in: [Stored; CHUNK],
+    t_out: [Stored; CHUNK],
+}
+
+impl Chunk {
+    #[inline(always)]
+    fn push<I: Isa>(&mut self, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
+        self.numbers[self.count] = number as u8;
+        self.here[self.count] = here.bits();
+        self.t_in[self.count] = t_in.stored();
+        self.t_out[self.count] = t_out.stored();
+        self.count += 1;
     }
 }
 
@@ -468,11 +486,19 @@ struct Several<'a, 'b, 'c, I: Isa, O: Origins<I>> {
 impl<I: Isa, O: Origins<I>> Kernel for Several<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
+        let mut chunk = Chunk::default();
         for number in bits_of(self.packets) {
             let (here, stretch) = self.walk.crossing(number, self.cube, self.depths);
             if here.any() {
-                self.walk.program(self.words, number, here, stretch);
+                chunk.push(number, here, stretch);
+                if chunk.count == CHUNK {
+                    self.walk.program(self.words, &chunk);
+                    chunk.count = 0;
+                }
             }
+        }
+        if chunk.count > 0 {
+            self.walk.program(self.words, &chunk);
         }
     }
 }
@@ -516,20 +542,17 @@ impl<I: Isa, O: Origins<I>> Kernel for GiveUp<'_, '_, '_, I, O> {
     }
 }
 
-/// A stretch outside the octree's root, with a plain program.
+/// Stretches outside the octree's root, with a plain program.
 struct Outer<'a, 'b, 'c, I: Isa, O: Origins<I>> {
     walk: &'a mut Walk<'b, 'c, I, O>,
     words: &'a [u32],
-    number: usize,
-    here: u8,
-    stretch: (Stored, Stored),
+    chunk: &'a Chunk,
 }
 
 impl<I: Isa, O: Origins<I>> Kernel for Outer<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
-        let stretch = Stretch { t_in: F64s::load(&self.stretch.0), t_out: F64s::load(&self.stretch.1) };
-        self.walk.program(self.words, self.number, Mask::from_bits(self.here), stretch);
+        self.walk.program(self.words, self.chunk);
     }
 }
 
