@@ -11,9 +11,11 @@ mod lanes;
 mod packet;
 mod program;
 mod prune;
+mod stream;
 mod walk;
 
 pub use dispatch::Backend;
+pub use stream::RayTo;
 
 use super::prepared::Prepared;
 use super::roots::hit_of;
@@ -23,10 +25,10 @@ use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
 use dispatch::Task;
-use lanes::{Isa, LANES};
+use lanes::{Isa, LANES, Stored};
 use packet::Packet;
 use program::Solved;
-use walk::{Common, Own, Scenery, Waiting, walk};
+use walk::{Common, Lead, Own, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
@@ -52,10 +54,14 @@ pub type TileHit = Option<(usize, Hit)>;
 pub struct RayTile {
     packets: [Packet; PACKETS],
     beam: Beam,
+    /// Whether all rays start at the beam's eye.
+    from_eye: bool,
     waiting: [Waiting; Waiting::MOST],
     solved: Solved,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
+    /// Rays of a stream, sorted by the signs of their directions.
+    by_signs: [Vec<u32>; 8],
 }
 
 impl Default for RayTile {
@@ -63,9 +69,11 @@ impl Default for RayTile {
         Self {
             packets: [Packet::default(); PACKETS],
             beam: Beam::default(),
+            from_eye: false,
             waiting: [Waiting::NOTHING; Waiting::MOST],
             solved: Solved::default(),
             alone: Vec::new(),
+            by_signs: Default::default(),
         }
     }
 }
@@ -125,7 +133,7 @@ impl Tiles<'_> {
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let ray = self.ray(tile, packet, lane);
+                let ray = tile.ray(packet, lane);
                 let hit = self.tracer.first_body_hit(&ray, f64::INFINITY, scratch);
                 tile.alone.push(((packet * LANES + lane) as u16, hit));
             }
@@ -140,20 +148,28 @@ impl Tiles<'_> {
             let index = (number * LANES + lane) as u16;
             return tile.alone.iter().find(|(alone, _)| *alone == index).and_then(|(_, hit)| *hit);
         }
-        let t = packet.t.0[lane];
-        if t == f64::INFINITY {
-            return None;
-        }
-        let body = packet.bodies[lane] as usize;
-        let ray = self.ray(tile, number, lane);
-        Some((body, hit_of(&self.tracer.catalog, packet.words[lane], &ray, t, self.start_outside[body])))
+        tile.hit(self.tracer, number, lane)
+    }
+}
+
+impl RayTile {
+    /// One of its rays.
+    fn ray(&self, packet: usize, lane: usize) -> Ray {
+        let packet = &self.packets[packet];
+        let at = |v: &[Stored; 3]| Vec3::new(v[0].0[lane], v[1].0[lane], v[2].0[lane]);
+        let origin = if self.from_eye { self.beam.eye } else { at(&packet.origin) };
+        Ray { origin, direction: at(&packet.direction) }
     }
 
-    fn ray(&self, tile: &RayTile, packet: usize, lane: usize) -> Ray {
-        let packet = &tile.packets[packet];
-        let at = |v: &[lanes::Stored; 3]| Vec3::new(v[0].0[lane], v[1].0[lane], v[2].0[lane]);
-        let origin = if self.camera.orthographic { at(&packet.origin) } else { self.camera.eye };
-        Ray { origin, direction: at(&packet.direction) }
+    /// What a ray met that was not given up.
+    fn hit(&self, tracer: &Tracer, number: usize, lane: usize) -> TileHit {
+        let packet = &self.packets[number];
+        if packet.met >> lane & 1 == 0 {
+            return None;
+        }
+        let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
+        let hit = hit_of(&tracer.catalog, packet.words[lane], &self.ray(number, lane), t, entering);
+        Some((packet.bodies[lane] as usize, hit))
     }
 }
 
@@ -173,6 +189,7 @@ impl Task for TraceTile<'_, '_> {
         let Self { tiles, corner, size, place, tile, scratch } = self;
         let corner = (f64::from(corner.0), f64::from(corner.1));
         tile.beam = Beam::new(&tiles.camera, corner.0, corner.1);
+        tile.from_eye = !tiles.camera.orthographic;
         let lanes_in = |number: usize| {
             let mut wanted = 0;
             for lane in 0..LANES {
@@ -191,6 +208,7 @@ impl Task for TraceTile<'_, '_> {
             let Some(octree) = body.octree() else { continue };
             for packet in &mut tile.packets {
                 packet.open = packet.wanted & !packet.given_up;
+                packet.started_there = 0;
             }
             let scenery = Scenery {
                 catalog: &tiles.tracer.catalog,
@@ -200,8 +218,12 @@ impl Task for TraceTile<'_, '_> {
                 body: number as u32,
             };
             match tiles.camera.orthographic {
-                true => walk::<I, Own>(&scenery, tile, scratch),
-                false => walk::<I, Common>(&scenery, tile, scratch),
+                true => walk::<I, Own>(&scenery, Lead::Beam, tile, scratch),
+                false => walk::<I, Common>(&scenery, Lead::Beam, tile, scratch),
+            }
+            for packet in &mut tile.packets {
+                // The camera is on one side of everything.
+                packet.given_up |= packet.started_there;
             }
         }
     }

@@ -2,9 +2,8 @@
 
 use super::crossing::Rays;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
-use super::walk::Origins;
+use super::walk::{Origins, Scenery};
 use super::{ACROSS, PACKET_PX};
-use crate::compile::Catalog;
 use crate::geom::{Ray, Vec3};
 use crate::model::CameraRays;
 use crate::trace::Scratch;
@@ -34,6 +33,11 @@ pub(super) struct Packet {
     pub wanted: u8,
     /// Rays that have met nothing of the present body so far.
     pub open: u8,
+    /// Rays that have met something, and which of them enter it.
+    pub met: u8,
+    pub entering: u8,
+    /// Rays that started where others get to by crossing the present body's surface.
+    pub started_there: u8,
     /// Rays that scalar code must trace.
     pub given_up: u8,
 }
@@ -70,6 +74,7 @@ impl Packet {
         self.per_depth = per_depth.stored();
         self.t = F64s::<I>::infinity().stored();
         self.wanted = wanted;
+        self.met = 0;
         self.given_up = 0;
     }
 
@@ -80,15 +85,49 @@ impl Packet {
         Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
+    /// Sets a ray that is followed up to and including `end`.
+    pub fn put(&mut self, lane: usize, ray: &Ray, end: f64) {
+        for axis in 0..3 {
+            self.origin[axis].0[lane] = ray.origin[axis];
+            self.direction[axis].0[lane] = ray.direction[axis];
+            self.inverse[axis].0[lane] = 1.0 / ray.direction[axis];
+        }
+        self.per_depth.0[lane] = 1.0;
+        self.t.0[lane] = end.next_up();
+        self.wanted |= 1 << lane;
+    }
+
     /// Rays meet something, unless they have met something before.
     #[inline(always)]
-    pub fn meet<I: Isa>(&mut self, rays: Mask<I>, t: F64s<I>, words: [u32; LANES], body: u32) {
+    pub fn meet<I: Isa>(&mut self, rays: Mask<I>, t: F64s<I>, words: [u32; LANES], scenery: &Scenery) {
         let before = F64s::load(&self.t);
         let first = rays & t.lt(before);
         self.t = first.select(t, before).stored();
         self.words = first.select_words(words, self.words);
-        self.bodies = first.select_words([body; LANES], self.bodies);
+        self.bodies = first.select_words([scenery.body; LANES], self.bodies);
+        self.note(first.bits(), scenery.wanted);
+        // What is crossed at the very start is none of a ray's business; scalar code knows better what comes then.
+        let at_start = rays & t.le(F64s::zero());
+        if at_start.any() {
+            self.give_up(at_start.bits());
+        }
         self.open &= !rays.bits();
+    }
+
+    /// Notes for some rays that they have met something, which they enter or leave.
+    #[inline(always)]
+    fn note(&mut self, rays: u8, entering: bool) {
+        self.met |= rays;
+        self.entering = if entering { self.entering | rays } else { self.entering & !rays };
+    }
+
+    /// Open rays are already where they want to get to: they start there, or something is wrong.
+    #[inline(always)]
+    pub fn leak<I: Isa>(&mut self, rays: Mask<I>, t: F64s<I>) {
+        let at_start = (rays & t.le(F64s::zero())).bits() & self.open;
+        self.started_there |= at_start;
+        self.open &= !at_start;
+        self.give_up(rays.bits());
     }
 
     /// Leaves open rays to scalar code.
@@ -101,11 +140,10 @@ impl Packet {
     /// A stretch with a program that lanes cannot evaluate.
     pub fn one_by_one(
         &mut self,
-        catalog: &Catalog,
+        scenery: &Scenery,
         words: &[u32],
         rays: u8,
         (origin, t_in, t_out): (&Vector<Stored>, &Stored, &Stored),
-        (wanted, body): (bool, u32),
         scratch: &mut Scratch,
     ) {
         for lane in (0..LANES).filter(|lane| rays >> lane & 1 != 0) {
@@ -115,20 +153,25 @@ impl Packet {
                 origin: Vec3::new(at(&origin.x), at(&origin.y), at(&origin.z)),
                 direction: Vec3::new(at(x), at(y), at(z)),
             };
-            let roots = &mut scratch.roots;
+            let (bit, roots) = (1 << lane, &mut scratch.roots);
+            if at(t_in) <= 0.0 {
+                // On which side it starts is for the march to find out.
+                self.give_up(bit);
+                continue;
+            }
             roots.begin_ray();
-            roots.solve(catalog, words, &ray);
+            roots.solve(scenery.catalog, words, &ray);
             scratch.counters.surface_tests += words.len() as u64;
-            let t = roots.next(words, at(t_in), wanted);
+            let t = roots.next(words, at(t_in), scenery.wanted);
             if t > at(t_out) || t == f64::INFINITY {
                 continue;
             }
-            let bit = 1 << lane;
             let change = roots.change(words, t);
             match change.word {
-                Some(word) if change.after == wanted => {
+                Some(word) if change.after == scenery.wanted => {
                     if t < self.t.0[lane] {
-                        (self.t.0[lane], self.words[lane], self.bodies[lane]) = (t, word, body);
+                        (self.t.0[lane], self.words[lane], self.bodies[lane]) = (t, word, scenery.body);
+                        self.note(bit, scenery.wanted);
                     }
                     self.open &= !bit;
                 }

@@ -34,12 +34,14 @@ pub(super) struct Waiting {
     word: CellWord,
     center: Vec3,
     half: f64,
+    /// The packets that may reach it, as far as one knows.
+    packets: u32,
 }
 
 impl Waiting {
     /// The most cells that wait: seven for each level, and the last one's children.
     pub const MOST: usize = 160;
-    pub const NOTHING: Self = Self { word: CellWord::OUTSIDE, center: Vec3::ZERO, half: 0.0 };
+    pub const NOTHING: Self = Self { word: CellWord::OUTSIDE, center: Vec3::ZERO, half: 0.0, packets: 0 };
 }
 
 /// Programs are pruned for at least so many packets; for fewer it takes longer than it saves.
@@ -100,9 +102,18 @@ impl<I: Isa> Origins<I> for Own {
     }
 }
 
+/// How packets are led through the octree.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Lead {
+    /// As one beam.
+    Beam,
+    /// Packet by packet. The directions of all rays have the same signs, a bit for each that is negative.
+    Signs(usize),
+}
+
 /// Follows all packets to the first crossing.
 #[inline(always)]
-pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, tile: &mut RayTile, scratch: &mut Scratch) {
+pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
     let RayTile { packets, beam, waiting, solved, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
@@ -119,7 +130,10 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, tile: &mut RayTile,
     if !bounded {
         walk.before();
     }
-    walk.inside(waiting);
+    match lead {
+        Lead::Beam => walk.inside(waiting),
+        Lead::Signs(near) => walk.inside_singly(near, waiting),
+    }
     if !bounded {
         walk.behind();
     }
@@ -158,11 +172,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let Scenery { octree, wanted, .. } = *self.scenery;
         let void = if wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
         let beam = self.beam;
-        waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half };
+        waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX };
         let mut count = usize::from(octree.root != void);
         while count > 0 && self.open != 0 {
             count -= 1;
-            let Waiting { word, center, half } = waiting[count];
+            let Waiting { word, center, half, .. } = waiting[count];
             let reached = beam.reached::<I>(center, half + octree.margin);
             let packets = reached.packets & self.open;
             if packets == 0 {
@@ -182,7 +196,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                         left &= !(1 << order);
                         let octant = order ^ near;
                         let center = Octree::child_center(center, child_half, octant);
-                        waiting[count] = Waiting { word: children[octant], center, half: child_half };
+                        waiting[count] = Waiting { word: children[octant], center, half: child_half, packets };
                         count += 1;
                     }
                 }
@@ -194,6 +208,81 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 Kind::Outside | Kind::Inside => self.give_up_in(packets, Cube { center, half }, (0.0, f64::INFINITY)),
             }
         }
+    }
+
+    /// The cells of the octree, each for those packets that come through it.
+    #[inline(always)]
+    fn inside_singly(&mut self, near: usize, waiting: &mut [Waiting; Waiting::MOST]) {
+        let Scenery { octree, wanted, .. } = *self.scenery;
+        let void = if wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
+        let everywhere = (0.0, f64::INFINITY);
+        waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX };
+        let mut count = usize::from(octree.root != void);
+        while count > 0 && self.open != 0 {
+            count -= 1;
+            let Waiting { word, center, half, packets } = waiting[count];
+            let packets = packets & self.open;
+            let cube = Cube { center, half };
+            match word.kind() {
+                _ if packets == 0 => {}
+                Kind::Branch(index) => {
+                    let children = &octree.branches[index as usize];
+                    let mut visitors = [0; LANES];
+                    for number in bits_of(packets) {
+                        let mut octants = self.octants_met(number, cube);
+                        while octants != 0 {
+                            visitors[octants.trailing_zeros() as usize & 7] |= 1 << number;
+                            octants &= octants - 1;
+                        }
+                    }
+                    // The nearest goes on top.
+                    for order in (0..LANES).rev() {
+                        let octant = order ^ near;
+                        if visitors[order] != 0 && children[octant] != void {
+                            let center = Octree::child_center(center, half / 2.0, octant);
+                            let packets = visitors[order];
+                            waiting[count] = Waiting { word: children[octant], center, half: half / 2.0, packets };
+                            count += 1;
+                        }
+                    }
+                }
+                Kind::Leaf(offset) => {
+                    self.scratch.counters.cells += 1;
+                    let words = octree.program(offset);
+                    match is_short(words) {
+                        true => self.evaluate(words, packets, cube, everywhere),
+                        false => self.give_up_in(packets, cube, everywhere),
+                    }
+                }
+                Kind::Outside | Kind::Inside => self.give_up_in(packets, cube, everywhere),
+            }
+        }
+    }
+
+    /// The octants of a cell that a packet's rays come through, numbered from the nearest on.
+    #[inline(always)]
+    fn octants_met(&self, number: usize, cube: Cube) -> u8 {
+        let packet = &self.packets[number];
+        let (here, Stretch { t_in, t_out }) = self.crossing(number, cube, (0.0, f64::INFINITY));
+        let origin = O::of(packet, self.beam.eye);
+        let middle = |axis: usize, origin: O::Number, center: f64| {
+            (O::Number::from_one(center) - origin).lanes() * F64s::<I>::load(&packet.inverse[axis])
+        };
+        // Where rays leave the near half, and where they enter the far one. A ray in the plane between is in both.
+        let halves = |middle: F64s<I>| (t_out.min(middle), t_in.max(middle));
+        let (near_x, far_x) = halves(middle(0, origin.x, cube.center.x));
+        let (near_y, far_y) = halves(middle(1, origin.y, cube.center.y));
+        let (near_z, far_z) = halves(middle(2, origin.z, cube.center.z));
+        let (near_xy, far_xy) = (near_x.min(near_y), far_x.max(far_y));
+        let met = |start: F64s<I>, end: F64s<I>, bit: u32| u8::from((here & start.le(end)).any()) << bit;
+        met(t_in, near_xy.min(near_z), 0)
+            | met(far_x, near_y.min(near_z), 1)
+            | met(far_y, near_x.min(near_z), 2)
+            | met(far_xy, near_z, 3)
+            | met(far_z, near_xy, 4)
+            | met(far_x.max(far_z), near_y, 5)
+            | met(far_y.max(far_z), near_x, 6)
+            | met(far_xy.max(far_z), t_out, 7)
     }
 
     /// The octant of a cell that rays meet first.
@@ -291,7 +380,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let per_depth = F64s::load(&packet.per_depth);
         // Where two slabs meet, both have the same number.
         stretch.t_in = stretch.t_in.max(F64s::splat(near) * per_depth);
-        stretch.t_out = stretch.t_out.min(F64s::splat(far) * per_depth);
+        stretch.t_out = stretch.t_out.min(F64s::splat(far) * per_depth).min(F64s::load(&packet.t));
         (Mask::from_bits(packet.open) & stretch.t_in.le(stretch.t_out), stretch)
     }
 
@@ -329,9 +418,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let between = two_sides & a.lt(t_in) & t_in.lt(b) & !starts_wanted;
         let beyond = starts_wanted & !(two_sides & a.le(t_in) & t_in.le(b));
         let leaked = here & (between | beyond);
-        self.packets[number].meet::<I>(found, turn, [word; LANES], self.scenery.body);
+        self.packets[number].meet::<I>(found, turn, [word; LANES], self.scenery);
         if leaked.any() {
-            self.packets[number].give_up(leaked.bits());
+            self.packets[number].leak(leaked, t_in);
         }
     }
 
@@ -357,9 +446,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             let sound = changes.before ^ changes.after;
             let leaked = met & (sound ^ Mask::splat(true));
             let packet = &mut self.packets[chunk.numbers[slot] as usize];
-            packet.meet::<I>(met & sound, t, changes.words, self.scenery.body);
+            packet.meet::<I>(met & sound, t, changes.words, self.scenery);
             if leaked.any() {
-                packet.give_up(leaked.bits());
+                packet.leak(leaked, t_in);
             }
         }
     }
@@ -370,9 +459,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let (t_in, t_out) = (t_in.stored(), t_out.stored());
         let rays = self.packets[number].rays::<I, O>(self.beam.eye);
         let origin = rays.origin.map(|v| v.lanes().stored());
-        let Scenery { catalog, wanted, body, .. } = *self.scenery;
         let packet = &mut self.packets[number];
-        packet.one_by_one(catalog, words, here.bits(), (&origin, &t_in, &t_out), (wanted, body), self.scratch);
+        packet.one_by_one(self.scenery, words, here.bits(), (&origin, &t_in, &t_out), self.scratch);
     }
 
     /// Leaves to scalar code the open rays of those packets that come through a cell.
@@ -421,7 +509,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                         chunk.count = 0;
                     }
                 }
-                None => self.packets[number].give_up(here.bits()),
+                None => self.packets[number].leak(here, stretch.t_in),
             }
         }
         if let Some(words) = words.filter(|_| chunk.count > 0) {
@@ -536,8 +624,8 @@ impl<I: Isa, O: Origins<I>> Kernel for GiveUp<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
         for number in bits_of(self.packets) {
-            let (here, _) = self.walk.crossing(number, self.cube, self.depths);
-            self.walk.packets[number].give_up(here.bits());
+            let (here, stretch) = self.walk.crossing(number, self.cube, self.depths);
+            self.walk.packets[number].leak(here, stretch.t_in);
         }
     }
 }
