@@ -5,8 +5,8 @@ mod common;
 use common::{cases, lattice_point, lattice_solid};
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
-use octrace::trace::{Backend, Scratch, TILE_PX};
-use octrace::{Accel, Bounds, Camera, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
+use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX};
+use octrace::{Accel, Camera, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
 use proptest::prelude::*;
 
 const SIZE_PX: u32 = TILE_PX as u32;
@@ -21,27 +21,20 @@ fn compare(bodies: &[Solid], octree: BuildOptions, camera: &Camera, place: (f64,
     let expected = tracer(bodies, &TracerOptions { accel: Accel::None, ..TracerOptions::default() });
     let tested = tracer(bodies, &TracerOptions { octree, ..TracerOptions::default() });
     let rays = camera.rays(SIZE_PX, SIZE_PX);
-    let ray = |x: f64, y: f64| rays.ray(x, y);
-    let size = f64::from(SIZE_PX);
-    let corners = [(0.0, 0.0), (0.0, size), (size, 0.0), (size, size)].map(|(x, y)| ray(x, y).origin);
     let mut scratch = Scratch::default();
+    let mut tile = RayTile::default();
     let mut backends = 0;
     for backend in Backend::ALL.into_iter().filter(|backend| backend.is_available()) {
-        let Some(tiles) = tested.tiles(&Bounds::around(corners), backend) else { continue };
+        let Some(tiles) = tested.tiles(&rays, (SIZE_PX, SIZE_PX), backend) else { continue };
         backends += 1;
         // A tile at the picture's edge has fewer pixels.
-        for (width, height) in [(TILE_PX, TILE_PX), (TILE_PX - 3, 5)] {
-            let hits = tiles.hits(ray, place, (width, height), &mut scratch);
-            for (y, row) in hits.iter().enumerate() {
-                for (x, hit) in row.iter().enumerate() {
-                    let ray: Ray = ray(x as f64 + place.0, y as f64 + place.1);
-                    let alone = if x < width && y < height {
-                        expected.first_body_hit(&ray, f64::INFINITY, &mut Scratch::default())
-                    } else {
-                        None
-                    };
-                    prop_assert_eq!(*hit, alone, "{:?}, {:?}", backend, ray);
-                }
+        for (width, height) in [(SIZE_PX, SIZE_PX), (SIZE_PX - 3, 5)] {
+            tiles.trace((0, 0), (width, height), place, &mut tile, &mut scratch);
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                let ray = rays.ray(f64::from(x) + place.0, f64::from(y) + place.1);
+                let alone = expected.first_body_hit(&ray, f64::INFINITY, &mut Scratch::default());
+                let hit = tiles.hit(&tile, (x as usize, y as usize));
+                prop_assert_eq!(hit, alone, "{:?}, {:?}", backend, ray);
             }
         }
     }
@@ -75,6 +68,49 @@ proptest! {
         let camera = Camera { eye: eye - forward * back, at, up: Vec3::Z, projection };
         let place = if in_the_middle { (0.5, 0.5) } else { (0.0, 0.0) };
         compare(&bodies, BuildOptions { leaf_surfaces, depth }, &camera, place)?;
+    }
+}
+
+/// Compares a stream of rays with each ray by itself, without an octree.
+fn compare_stream(bodies: &[Solid], octree: BuildOptions, rays: &[RayTo]) -> Result<(), TestCaseError> {
+    let expected = tracer(bodies, &TracerOptions { accel: Accel::None, ..TracerOptions::default() });
+    let tested = tracer(bodies, &TracerOptions { octree, ..TracerOptions::default() });
+    let (mut scratch, mut tile) = (Scratch::default(), RayTile::default());
+    for backend in Backend::ALL.into_iter().filter(|backend| backend.is_available()) {
+        let hits = tested.first_hits(rays, backend, &mut tile, &mut scratch);
+        for (RayTo { ray, end }, hit) in rays.iter().zip(hits) {
+            let alone = expected.first_body_hit(ray, *end, &mut Scratch::default());
+            prop_assert_eq!(hit, alone, "{:?}, {:?} up to {}", backend, ray, end);
+        }
+    }
+    prop_assert_eq!(scratch.counters.leaks, 0);
+    Ok(())
+}
+
+/// Rays from anywhere, also from within and from the surface, along axes and through lattice points.
+fn any_ray() -> impl Strategy<Value = RayTo> {
+    let end = prop::sample::select(vec![0.5, 1.0, 2.0, f64::INFINITY, 0.0, -1.0]);
+    (lattice_point(), lattice_point(), prop::sample::select(vec![-1.0, -0.25, 0.0, 0.3]), end).prop_filter_map(
+        "rays have a direction",
+        |(from, to, back, end)| {
+            let direction = to - from;
+            let ray = Ray { origin: from + direction * back, direction };
+            (direction != Vec3::ZERO).then_some(RayTo { ray, end })
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn streams_see_what_rays_see(
+        bodies in prop::collection::vec(lattice_solid(), 1..3),
+        rays in prop::collection::vec(any_ray(), 1..40),
+        leaf_surfaces in 0_usize..5,
+        depth in prop::option::of(0_u32..7),
+    ) {
+        compare_stream(&bodies, BuildOptions { leaf_surfaces, depth }, &rays)?;
     }
 }
 

@@ -2,10 +2,9 @@
 
 use super::Film;
 use crate::exec::{Cancelled, Exec};
-use crate::geom::Bounds;
 use crate::model::{Camera, CameraRays, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
 use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Seen, Whitted};
-use crate::trace::{Backend, Counters, Scratch, TileHit, Tiles, Tracer};
+use crate::trace::{Backend, Counters, RayTile, Scratch, Tiles, Tracer};
 use rayon::prelude::*;
 use std::ops::AddAssign;
 
@@ -55,10 +54,8 @@ const TILE_PX: u32 = crate::trace::TILE_PX as u32;
 pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Result<(Film, RenderStats), Cancelled> {
     let integrator = integrator(scene, tracer, view);
     let rays = view.camera.rays(view.width_px, view.height_px);
-    let edge = |size: u32| [0.0, f64::from(size)];
-    let corners = edge(view.width_px).into_iter().flat_map(|x| edge(view.height_px).map(|y| rays.ray(x, y).origin));
-    let tiles_together = tracer.tiles(&Bounds::around(corners), Backend::best());
-    let camera = TileCamera { tracer, rays, together: tiles_together };
+    let together = tracer.tiles(&rays, (view.width_px, view.height_px), Backend::best());
+    let camera = TileCamera { tracer, rays, together };
     let (width, height) = (view.width_px, view.height_px);
     let tiles_across = width.div_ceil(TILE_PX);
     let tiles = tiles_across * height.div_ceil(TILE_PX);
@@ -68,9 +65,9 @@ pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Resul
     let rendered: Result<Vec<Tile>, Cancelled> = exec.install(|| {
         (0..tiles)
             .into_par_iter()
-            .map_init(Scratch::default, |scratch, tile| {
+            .map_init(Worker::default, |worker, tile| {
                 exec.cancel.check()?;
-                let tile = Tile::render(&integrator, &camera, view, tile_origin(tile), scratch);
+                let tile = Tile::render(&integrator, &camera, view, tile_origin(tile), worker);
                 exec.progress.advance(1);
                 Ok(tile)
             })
@@ -131,31 +128,11 @@ struct TileCamera<'a> {
     together: Option<Tiles<'a>>,
 }
 
-impl TileCamera<'_> {
-    /// What the rays through the given point of every pixel of a tile meet.
-    fn hits(
-        &self,
-        (left, top): (u32, u32),
-        size: (u32, u32),
-        place: (f64, f64),
-        scratch: &mut Scratch,
-    ) -> Vec<TileHit> {
-        let (left, top) = (f64::from(left), f64::from(top));
-        let ray = |x: f64, y: f64| self.rays.ray(left + x, top + y);
-        let pixels = (0..size.1).flat_map(|y| (0..size.0).map(move |x| (x, y)));
-        match &self.together {
-            Some(tiles) => {
-                let hits = tiles.hits(ray, place, (size.0 as usize, size.1 as usize), scratch);
-                pixels.map(|(x, y)| hits[y as usize][x as usize]).collect()
-            }
-            None => pixels
-                .map(|(x, y)| {
-                    let ray = ray(f64::from(x) + place.0, f64::from(y) + place.1);
-                    self.tracer.first_body_hit(&ray, f64::INFINITY, scratch)
-                })
-                .collect(),
-        }
-    }
+/// The memory of a worker.
+#[derive(Debug, Default)]
+struct Worker {
+    scratch: Scratch,
+    rays: RayTile,
 }
 
 struct Tile {
@@ -170,7 +147,7 @@ impl Tile {
         camera: &TileCamera,
         view: &View,
         (left, top): (u32, u32),
-        scratch: &mut Scratch,
+        Worker { scratch, rays }: &mut Worker,
     ) -> Self {
         let (width, height) = ((view.width_px - left).min(TILE_PX), (view.height_px - top).min(TILE_PX));
         let samples = view.samples.max(1);
@@ -179,10 +156,16 @@ impl Tile {
         scratch.counters = Counters::default();
         for sample in 0..samples {
             let place = sample_place(sample, samples);
-            let hits = camera.hits((left, top), (width, height), place, scratch);
-            for ((sum, hit), index) in sums.iter_mut().zip(hits).zip(0..) {
-                let (x, y) = (f64::from(left) + f64::from(index % width), f64::from(top) + f64::from(index / width));
-                let ray = camera.rays.ray(x + place.0, y + place.1);
+            if let Some(tiles) = &camera.together {
+                tiles.trace((left, top), (width, height), place, rays, scratch);
+            }
+            for (sum, index) in sums.iter_mut().zip(0..) {
+                let (x, y) = (index % width, index / width);
+                let ray = camera.rays.ray(f64::from(left + x) + place.0, f64::from(top + y) + place.1);
+                let hit = match &camera.together {
+                    Some(tiles) => tiles.hit(rays, (x as usize, y as usize)),
+                    None => camera.tracer.first_body_hit(&ray, f64::INFINITY, scratch),
+                };
                 let seen = integrator.camera_ray(&ray, hit, scratch, &mut stats.rays, &mut ());
                 sum.color += seen.color;
                 sum.alpha += seen.alpha;

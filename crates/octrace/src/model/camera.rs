@@ -73,12 +73,16 @@ impl Camera {
 /// The rays through the pixels of one film.
 #[derive(Clone, Copy, Debug)]
 pub struct CameraRays {
-    eye: Vec3,
-    forward: Vec3,
-    right: Vec3,
-    down: Vec3,
-    center: (f64, f64),
-    orthographic: bool,
+    pub(crate) eye: Vec3,
+    /// Of unit length.
+    pub(crate) forward: Vec3,
+    /// From a pixel to the next in its row, at distance 1 if rays spread.
+    pub(crate) right: Vec3,
+    /// From a pixel to the next in its column.
+    pub(crate) down: Vec3,
+    /// The film's middle, in pixels.
+    pub(crate) center: (f64, f64),
+    pub(crate) orthographic: bool,
 }
 
 impl CameraRays {

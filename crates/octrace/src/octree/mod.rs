@@ -23,6 +23,7 @@ pub enum Cell<'a> {
 
 /// A reference to a cell: two bits of kind, thirty of index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
 pub(crate) struct CellWord(u32);
 
 /// A [`CellWord`], decoded.
@@ -48,6 +49,11 @@ impl CellWord {
     pub(crate) fn branch(index: u32) -> Self {
         debug_assert!(index < 1 << 30);
         Self(3 << 30 | index)
+    }
+
+    /// What it is in memory.
+    pub(crate) fn bits(self) -> u32 {
+        self.0
     }
 
     #[inline]

@@ -42,8 +42,8 @@ pub struct CellBox {
 }
 
 impl CellBox {
-    /// Margins are this many times what rounding does.
-    const MARGIN_IN_ROUNDINGS: f64 = 64.0;
+    /// What rounding does is this part of a margin.
+    pub(crate) const ROUNDING_IN_MARGINS: f64 = 1.0 / 64.0;
 
     /// A box, for points that are known to be in it.
     pub fn new(center: Vec3, half: Vec3) -> Self {
@@ -52,7 +52,7 @@ impl CellBox {
 
     /// A box with a margin all around that amply covers what rounding does to points in it.
     pub fn with_margin(center: Vec3, half: Vec3, margin: f64) -> Self {
-        Self { center, half: half + Vec3::splat(margin), rounding: margin / Self::MARGIN_IN_ROUNDINGS }
+        Self { center, half: half + Vec3::splat(margin), rounding: margin * Self::ROUNDING_IN_MARGINS }
     }
 
     /// How far each of the coordinates to which `rows` are the linear part may be from the box's middle, and how far off

@@ -1,65 +1,68 @@
 //! Where eight rays cross one surface: what [`Plane`] and [`Quadric`] do for one ray, operation for operation.
 
-use super::lanes::{F64s, LANES, Mask, Vec3s};
+use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
 use crate::geom::{Affine, Ray, Vec3};
 use crate::surface::{Crossings, Plane, Quadric, QuadricKind};
 
-/// Eight rays.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Rays {
-    pub origin: Vec3s,
-    pub direction: Vec3s,
+/// Eight rays, from one origin or from eight.
+#[derive(Clone, Copy)]
+pub(super) struct Rays<I: Isa, N> {
+    pub origin: Vector<N>,
+    pub direction: Vector<F64s<I>>,
 }
 
-impl Rays {
-    /// Sets one of them.
-    pub fn set(&mut self, i: usize, ray: &Ray) {
-        let put = |v: &mut Vec3s, p: Vec3| (v.x.0[i], v.y.0[i], v.z.0[i]) = (p.x, p.y, p.z);
-        put(&mut self.origin, ray.origin);
-        put(&mut self.direction, ray.direction);
-    }
-
+impl<I: Isa, N: Number<I>> Rays<I, N> {
     /// One of them.
-    #[inline(always)]
-    pub fn lane(&self, i: usize) -> Ray {
-        let at = |v: &Vec3s| Vec3::new(v.x.0[i], v.y.0[i], v.z.0[i]);
-        Ray { origin: at(&self.origin), direction: at(&self.direction) }
+    fn lane(&self, i: usize) -> Ray {
+        let at = |v: Vector<F64s<I>>| Vec3::new(v.x.stored().0[i], v.y.stored().0[i], v.z.stored().0[i]);
+        Ray { origin: at(self.origin.map(Number::lanes)), direction: at(self.direction) }
     }
 }
 
 /// Where eight lines pass from one side of a surface to the other: as [`Crossings`], of two at most.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Crossed {
+pub(super) struct Crossed<I: Isa> {
     /// Whether the line comes from inside.
-    pub starts_inside: Mask,
+    pub starts_inside: Mask<I>,
     /// The first crossing; infinite if there is none.
-    pub a: F64s,
+    pub a: F64s<I>,
     /// The second, not before the first; infinite if there is none.
-    pub b: F64s,
+    pub b: F64s<I>,
 }
 
-impl Crossed {
-    const NOWHERE: Self = Self { starts_inside: Mask::NONE, a: F64s::INFINITY, b: F64s::INFINITY };
+impl<I: Isa> Copy for Crossed<I> {}
+impl<I: Isa> Clone for Crossed<I> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<I: Isa> Crossed<I> {
+    /// Lines that stay outside.
+    #[inline(always)]
+    pub fn nowhere() -> Self {
+        Self { starts_inside: Mask::splat(false), a: F64s::infinity(), b: F64s::infinity() }
+    }
 
     /// As [`Sides::before`](crate::surface::Sides::before).
     #[inline(always)]
-    pub fn before(&self, t: F64s) -> Mask {
+    pub fn before(&self, t: F64s<I>) -> Mask<I> {
         self.starts_inside ^ self.a.lt(t) ^ self.b.lt(t)
     }
 
     /// As [`Sides::after`](crate::surface::Sides::after).
     #[inline(always)]
-    pub fn after(&self, t: F64s) -> Mask {
+    pub fn after(&self, t: F64s<I>) -> Mask<I> {
         self.starts_inside ^ self.a.le(t) ^ self.b.le(t)
     }
 
     /// As [`Sides::next`](crate::surface::Sides::next).
     #[inline(always)]
-    pub fn next(&self, t: F64s, wanted: bool) -> F64s {
-        let is_there = !(self.after(t) ^ Mask::splat(wanted));
+    pub fn next(&self, t: F64s<I>, wanted: bool) -> F64s<I> {
+        let is_there = self.after(t) ^ Mask::splat(!wanted);
         // Two crossings at one place cancel each other.
-        let first = self.a.lt(self.b).select(self.a, F64s::INFINITY);
-        let second = self.b.gt(t).select(self.b, F64s::INFINITY);
+        let first = self.a.lt(self.b).select(self.a, F64s::infinity());
+        let second = self.b.gt(t).select(self.b, F64s::infinity());
         is_there.select(t, self.a.gt(t).select(first, second))
     }
 
@@ -70,93 +73,109 @@ impl Crossed {
         self
     }
 
-    /// Sets one lane to what scalar code says.
-    fn set(&mut self, lane: usize, crossings: &Crossings) {
-        let at = |i: usize| crossings.params().get(i).copied().unwrap_or(f64::INFINITY);
-        self.starts_inside.set(lane, crossings.starts_inside());
-        (self.a.0[lane], self.b.0[lane]) = (at(0), at(1));
+    /// Sets the lanes of `unusual` to what scalar code says.
+    #[cold]
+    #[inline(never)]
+    fn set(&mut self, unusual: u8, crossings: impl Fn(usize) -> Crossings) {
+        let (mut a, mut b) = (self.a.stored(), self.b.stored());
+        let mut starts_inside = self.starts_inside.bits();
+        for lane in (0..LANES).filter(|lane| unusual >> lane & 1 != 0) {
+            let crossings = crossings(lane);
+            let at = |i: usize| crossings.params().get(i).copied().unwrap_or(f64::INFINITY);
+            (a.0[lane], b.0[lane]) = (at(0), at(1));
+            starts_inside = starts_inside & !(1 << lane) | u8::from(crossings.starts_inside()) << lane;
+        }
+        (self.a, self.b) = (F64s::load(&a), F64s::load(&b));
+        self.starts_inside = Mask::from_bits(starts_inside);
     }
 }
 
+/// As [`Affine::vector`].
 #[inline(always)]
-fn splat(v: Vec3) -> Vec3s {
-    Vec3s::new(F64s::splat(v.x), F64s::splat(v.y), F64s::splat(v.z))
+pub(super) fn vector<I: Isa, N: Number<I>>(map: &Affine, v: Vector<N>) -> Vector<N> {
+    let row = |i: usize| Vector::<N>::from_one(map.rows[i]).dot(v);
+    Vector::new(row(0), row(1), row(2))
 }
 
+/// As [`Affine::point`].
 #[inline(always)]
-fn vector(map: &Affine, v: Vec3s) -> Vec3s {
-    Vec3s::new(splat(map.rows[0]).dot(v), splat(map.rows[1]).dot(v), splat(map.rows[2]).dot(v))
-}
-
-#[inline(always)]
-fn point(map: &Affine, p: Vec3s) -> Vec3s {
-    let (v, t) = (vector(map, p), splat(map.translation));
-    Vec3s::new(v.x + t.x, v.y + t.y, v.z + t.z)
+pub(super) fn point<I: Isa, N: Number<I>>(map: &Affine, p: Vector<N>) -> Vector<N> {
+    let (v, t) = (vector(map, p), Vector::<N>::from_one(map.translation));
+    Vector::new(v.x + t.x, v.y + t.y, v.z + t.z)
 }
 
 /// As [`Plane::crossings`].
 #[inline(always)]
-pub(super) fn plane(plane: &Plane, rays: &Rays) -> Crossed {
-    let normal = splat(plane.normal);
-    let height = normal.dot(rays.origin) - F64s::splat(plane.offset);
-    let slope = normal.dot(rays.direction);
-    let t = -height / slope + F64s::ZERO;
+pub(super) fn plane<I: Isa, N: Number<I>>(plane: &Plane, rays: &Rays<I, N>) -> Crossed<I> {
+    let height = Vector::<N>::from_one(plane.normal).dot(rays.origin) - N::from_one(plane.offset);
+    let slope = Vector::<F64s<I>>::from_one(plane.normal).dot(rays.direction);
+    let t = -height.lanes() / slope + F64s::zero();
     let usual = t.is_finite();
-    let mut crossed = Crossed { starts_inside: slope.gt(F64s::ZERO), a: t, ..Crossed::NOWHERE };
+    let mut crossed = Crossed { starts_inside: slope.gt(F64s::zero()), a: t, b: F64s::infinity() };
     if !usual.all() {
-        set_unusual(&mut crossed, usual, |lane| plane.crossings(&rays.lane(lane)));
+        crossed.set(!usual.bits(), |lane| plane.crossings(&rays.lane(lane)));
     }
     crossed
 }
 
 /// As [`Quadric::crossings`].
 #[inline(always)]
-pub(super) fn quadric(quadric: &Quadric, rays: &Rays) -> Crossed {
+pub(super) fn quadric<I: Isa, N: Number<I>>(quadric: &Quadric, rays: &Rays<I, N>) -> Crossed<I> {
     let origin = point(&quadric.to_local, rays.origin);
     let d = vector(&quadric.to_local, rays.direction);
     let (s, c0) = quadric.kind.coefficients();
-    let is_cone = quadric.kind == QuadricKind::Cone;
-    let (s, c0) = (F64s::splat(s), F64s::splat(c0));
-    let (mut o, mut nearest) = (origin, F64s::ZERO);
-    if is_cone {
-        nearest = -origin.dot(d) / d.dot(d);
-        o = Vec3s::new(origin.x + d.x * nearest, origin.y + d.y * nearest, origin.z + d.z * nearest);
+    match quadric.kind {
+        QuadricKind::Cone => {
+            let origin = origin.map(Number::lanes);
+            let nearest = -origin.dot(d) / d.dot(d);
+            let step = d.map(|v| v * nearest);
+            let o = Vector::new(origin.x + step.x, origin.y + step.y, origin.z + step.z);
+            solved(quadric, o, d, (s, c0), rays, Some(nearest))
+        }
+        QuadricKind::Sphere | QuadricKind::Cylinder => solved(quadric, origin, d, (s, c0), rays, None),
     }
+}
+
+/// The crossings of `o + t d`, in local coordinates; `nearest` is what is to be added to the parameters of a cone.
+#[inline(always)]
+fn solved<I: Isa, N: Number<I>, M: Number<I>>(
+    quadric: &Quadric,
+    o: Vector<M>,
+    d: Vector<F64s<I>>,
+    (s, c0): (f64, f64),
+    rays: &Rays<I, N>,
+    nearest: Option<F64s<I>>,
+) -> Crossed<I> {
+    let c = (o.x * o.x + o.y * o.y + M::from_one(s) * (o.z * o.z) + M::from_one(c0)).lanes();
+    let o = o.map(Number::lanes);
+    let (s, c0) = (F64s::splat(s), F64s::splat(c0));
     let a = d.x * d.x + d.y * d.y + s * (d.z * d.z);
     let b = o.x * d.x + o.y * d.y + s * (o.z * d.z);
-    let c = o.x * o.x + o.y * o.y + s * (o.z * o.z) + c0;
     let m = o.cross(d);
     let discriminant = -c0 * a - (m.z * m.z + s * (m.x * m.x + m.y * m.y));
     let root = discriminant.sqrt();
-    let q = b.gt(F64s::ZERO).select(-b - root, root - b);
+    let q = b.gt(F64s::zero()).select(-b - root, root - b);
     let (t0, t1) = (q / a, c / q);
     let ordered = t0.le(t1);
     let (first, second) = (ordered.select(t0, t1), ordered.select(t1, t0));
-    let (first, second) = match is_cone {
-        true => (first + F64s::ZERO + nearest, second + F64s::ZERO + nearest),
-        false => (first + F64s::ZERO, second + F64s::ZERO),
+    let (first, second) = match nearest {
+        Some(nearest) => (first + F64s::zero() + nearest, second + F64s::zero() + nearest),
+        None => (first + F64s::zero(), second + F64s::zero()),
     };
-    let met = discriminant.gt(F64s::ZERO);
+    let met = discriminant.gt(F64s::zero());
     let mut crossed = Crossed {
-        starts_inside: a.lt(F64s::ZERO),
-        a: met.select(first, F64s::INFINITY),
-        b: met.select(second, F64s::INFINITY),
+        starts_inside: a.lt(F64s::zero()),
+        a: met.select(first, F64s::infinity()),
+        b: met.select(second, F64s::infinity()),
     };
     // A sphere and a cylinder are missed from outside; whatever else is not two crossings is for the code that knows.
-    let missed = match is_cone {
-        true => Mask::NONE,
-        false => discriminant.lt(F64s::ZERO) & a.gt(F64s::ZERO) & c.gt(F64s::ZERO),
+    let missed = match nearest {
+        Some(_) => Mask::splat(false),
+        None => discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero()),
     };
     let usual = missed | (met & first.is_finite() & second.is_finite());
     if !usual.all() {
-        set_unusual(&mut crossed, usual, |lane| quadric.crossings(&rays.lane(lane)));
+        crossed.set(!usual.bits(), |lane| quadric.crossings(&rays.lane(lane)));
     }
     crossed
-}
-
-#[cold]
-fn set_unusual(crossed: &mut Crossed, usual: Mask, crossings: impl Fn(usize) -> Crossings) {
-    for lane in (0..LANES).filter(|&lane| !usual.get(lane)) {
-        crossed.set(lane, &crossings(lane));
-    }
 }

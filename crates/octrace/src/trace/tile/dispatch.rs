@@ -1,7 +1,9 @@
 //! The same code compiled for machines of several kinds; which one is chosen when it runs.
 
-use super::PACKETS;
-use super::walk::{Packet, Scenery, Work, walk};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{Avx2, Avx512};
+use super::lanes::{Isa, Kernel, Portable};
+use std::marker::PhantomData;
 
 /// What the lanes are compiled for. All give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,33 +42,39 @@ impl Backend {
 #[cfg(target_arch = "x86_64")]
 fn has_avx512() -> bool {
     use std::arch::is_x86_feature_detected as has;
-    has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("avx512bw")
+    let wide = has!("avx512f") && has!("avx512dq") && has!("avx512vl") && has!("avx512bw");
+    wide && has!("bmi1") && has!("bmi2") && has!("lzcnt") && has!("popcnt")
 }
 
-/// [`walk`], as compiled for a backend; as for any machine where this one lacks it.
-pub(super) fn walk_on(backend: Backend, scenery: &Scenery, packets: &mut [Packet; PACKETS]) -> Work {
-    if !backend.is_available() {
-        return walk(scenery, packets);
+/// A task that is compiled for several machines. Its `run` must be `#[inline(always)]`, to be compiled as part of a function
+/// that may use the wide registers.
+pub(super) trait Task {
+    /// Does it, with those instructions.
+    fn run<I: Isa>(self);
+}
+
+/// A task, and the instructions for it.
+struct With<I, T>(T, PhantomData<I>);
+
+impl<I: Isa, T: Task> Kernel for With<I, T> {
+    #[inline(always)]
+    fn run(self) {
+        self.0.run::<I>();
     }
-    match backend {
-        // SAFETY: the machine has what the function is compiled for, as was just asked.
-        #[cfg(target_arch = "x86_64")]
-        Backend::Avx512 => unsafe { walk_avx512(scenery, packets) },
-        // SAFETY: the same.
-        #[cfg(target_arch = "x86_64")]
-        Backend::Avx2 => unsafe { walk_avx2(scenery, packets) },
-        _ => walk(scenery, packets),
+}
+
+impl Backend {
+    /// Does a task, as compiled for this backend; as for any machine where this one lacks it.
+    pub(super) fn run(self, task: impl Task) {
+        fn with<I: Isa>(task: impl Task) {
+            I::call(With(task, PhantomData::<I>));
+        }
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if self.is_available() => with::<Avx512>(task),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 if self.is_available() => with::<Avx2>(task),
+            _ => with::<Portable>(task),
+        }
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-fn walk_avx512(scenery: &Scenery, packets: &mut [Packet; PACKETS]) -> Work {
-    walk(scenery, packets)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn walk_avx2(scenery: &Scenery, packets: &mut [Packet; PACKETS]) -> Work {
-    walk(scenery, packets)
 }

@@ -4,75 +4,101 @@
 //! reach; in leaves, programs are evaluated for eight rays at once. What is found is what the march of each ray by itself
 //! finds ([`super::march`]), bit for bit; rays that are unusual in any way are traced by that.
 
+mod beam;
 mod crossing;
 mod dispatch;
-mod frustum;
 mod lanes;
+mod packet;
 mod program;
+mod prune;
+mod stream;
 mod walk;
 
 pub use dispatch::Backend;
+pub use stream::RayTo;
 
 use super::prepared::Prepared;
 use super::roots::hit_of;
 use super::{Scratch, Tracer};
 use crate::geom::{Bounds, Hit, Ray, Vec3};
-use crate::surface::{CellBox, Side, Surface};
-use crossing::Rays;
-use dispatch::walk_on;
-use frustum::Frustum;
-use lanes::{LANES, Mask};
-use walk::{Packet, Scenery};
+use crate::model::CameraRays;
+use crate::surface::{CellBox, Side};
+use beam::Beam;
+use dispatch::Task;
+use lanes::{Isa, LANES, Stored};
+use packet::Packet;
+use program::Solved;
+use walk::{Common, Lead, Own, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
-/// Pixels along the edge of a block.
-const BLOCK_PX: usize = 4;
-/// Blocks along the edge of a tile.
-const BLOCKS: usize = TILE_PX / BLOCK_PX;
-/// Rays of a packet along x, and along y.
+/// Pixels of a packet along x, and along y.
 const PACKET_PX: (usize, usize) = (4, 2);
-/// Packets along x.
+/// Packets along x, and along y.
 const ACROSS: usize = TILE_PX / PACKET_PX.0;
+const DOWN: usize = TILE_PX / PACKET_PX.1;
 /// Packets in a tile.
-const PACKETS: usize = TILE_PX * TILE_PX / LANES;
+const PACKETS: usize = ACROSS * DOWN;
 
-/// The block that a packet belongs to.
+/// The packet and the lane of a pixel.
 #[inline(always)]
-fn packet_block(packet: usize) -> usize {
-    packet / ACROSS * PACKET_PX.1 / BLOCK_PX * BLOCKS + packet % ACROSS * PACKET_PX.0 / BLOCK_PX
-}
-
-/// The pixel of a ray.
-#[inline(always)]
-fn pixel_of(packet: usize, lane: usize) -> (usize, usize) {
-    let x = packet % ACROSS * PACKET_PX.0 + lane % PACKET_PX.0;
-    let y = packet / ACROSS * PACKET_PX.1 + lane / PACKET_PX.0;
-    (x, y)
+fn lane_of(x: usize, y: usize) -> (usize, usize) {
+    (y / PACKET_PX.1 * ACROSS + x / PACKET_PX.0, y % PACKET_PX.1 * PACKET_PX.0 + x % PACKET_PX.0)
 }
 
 /// What a ray meets: the body and the hit.
 pub type TileHit = Option<(usize, Hit)>;
-/// What the rays of a tile meet, by row and column.
-pub type TileHits = [[TileHit; TILE_PX]; TILE_PX];
+
+/// The rays of one tile and what they meet; memory to be used for one tile after another.
+#[derive(Debug)]
+pub struct RayTile {
+    packets: [Packet; PACKETS],
+    beam: Beam,
+    /// Whether all rays start at the beam's eye.
+    from_eye: bool,
+    waiting: [Waiting; Waiting::MOST],
+    solved: Solved,
+    /// What the rays met that were traced by themselves, by packet and lane.
+    alone: Vec<(u16, TileHit)>,
+    /// Rays of a stream, sorted by the signs of their directions.
+    by_signs: [Vec<u32>; 8],
+}
+
+impl Default for RayTile {
+    fn default() -> Self {
+        Self {
+            packets: [Packet::default(); PACKETS],
+            beam: Beam::default(),
+            from_eye: false,
+            waiting: [Waiting::NOTHING; Waiting::MOST],
+            solved: Solved::default(),
+            alone: Vec::new(),
+            by_signs: Default::default(),
+        }
+    }
+}
 
 /// A way to trace the tiles of one picture.
 #[derive(Clone, Debug)]
 pub struct Tiles<'a> {
     tracer: &'a Tracer,
+    camera: CameraRays,
     /// For each body, whether rays set out outside of it.
     start_outside: Vec<bool>,
     backend: Backend,
 }
 
 impl Tracer {
-    /// How to trace a picture's camera rays in tiles; `None` where each must be traced by itself: without octrees, for
-    /// meshes, with another traversal than the default, and if the rays' origins, all in the box `origins`, are not clearly on one side of everything, or far away.
-    pub fn tiles(&self, origins: &Bounds, backend: Backend) -> Option<Tiles<'_>> {
-        let has_meshes = self.catalog.surfaces.iter().any(|surface| matches!(surface, Surface::Mesh(_)));
+    /// How to trace a picture's camera rays in tiles; `None` where each must be traced by itself: without octrees, with
+    /// another traversal than the default, and if the places where rays start are not clearly on one side of everything, or
+    /// are far away. `size_px` is the size of the film.
+    pub fn tiles(&self, camera: &CameraRays, size_px: (u32, u32), backend: Backend) -> Option<Tiles<'_>> {
+        let edge = |size: u32| [0.0, f64::from(size)];
+        let corners = edge(size_px.0).into_iter().flat_map(|x| edge(size_px.1).map(|y| camera.ray(x, y).origin));
+        let origins = Bounds::around(corners);
         let is_near = |origin: Vec3| Prepared::new(&Ray { origin, direction: Vec3::Z }, &self.bounds()).is_as_given();
         let one_by_one = self.bodies.iter().any(|body| !body.is_walked_by_default());
-        if has_meshes || one_by_one || !is_near(origins.min) || !is_near(origins.max) {
+        if one_by_one || !is_near(origins.min) || !is_near(origins.max) {
             return None;
         }
         let coordinates = origins.min.max_abs().max(origins.max.max_abs());
@@ -83,67 +109,122 @@ impl Tracer {
             Side::Inside => body.octree().map(|_| false),
             Side::Crossing => None,
         });
-        Some(Tiles { tracer: self, start_outside: start_outside.collect::<Option<_>>()?, backend })
+        let start_outside = start_outside.collect::<Option<_>>()?;
+        Some(Tiles { tracer: self, camera: *camera, start_outside, backend })
     }
 }
 
 impl Tiles<'_> {
-    /// The first crossings of a tile's rays with any body, as [`Tracer::first_body_hit`] finds them: row by row, of `size`
-    /// pixels, at most [`TILE_PX`] each way.
-    ///
-    /// `ray(x, y)` is the ray through a point of the tile, `offset` the point of each pixel. Rays have unit directions; they
-    /// come from one point or are parallel, and straight lines of pixels lie in planes.
-    pub fn hits(
+    /// Finds the first crossings of a tile's rays with any body, as [`Tracer::first_body_hit`] finds them. The tile's upper
+    /// left pixel is `corner`; it has `size` pixels, at most [`TILE_PX`] each way; `place` is where in each pixel its ray
+    /// goes through, from 0 to 1. [`hit`](Self::hit) tells what they met.
+    pub fn trace(
         &self,
-        ray: impl Fn(f64, f64) -> Ray,
-        offset: (f64, f64),
-        size: (usize, usize),
+        corner: (u32, u32),
+        size: (u32, u32),
+        place: (f64, f64),
+        tile: &mut RayTile,
         scratch: &mut Scratch,
-    ) -> TileHits {
-        let at = |x: usize, y: usize| ray(x as f64 + offset.0, y as f64 + offset.1);
-        let mut hits = [[None; TILE_PX]; TILE_PX];
-        let mut alone = [[true; TILE_PX]; TILE_PX];
-        if let Some(frustum) = Frustum::new(&ray) {
-            let packets: [Packet; PACKETS] = std::array::from_fn(|packet| {
-                let mut rays = Rays::default();
-                let mut wanted = Mask::NONE;
-                for lane in 0..LANES {
-                    let (x, y) = pixel_of(packet, lane);
-                    rays.set(lane, &at(x, y));
-                    wanted.set(lane, x < size.0 && y < size.1);
-                }
-                Packet::new(rays, wanted)
-            });
-            alone = [[false; TILE_PX]; TILE_PX];
-            for (number, body) in self.tracer.bodies.iter().enumerate() {
-                let Some(octree) = body.octree() else { continue };
-                let wanted = self.start_outside[number];
-                let (catalog, program) = (&self.tracer.catalog, &body.program);
-                let mut packets = packets;
-                let scenery = Scenery { catalog, program, octree, frustum: &frustum, wanted };
-                let work = walk_on(self.backend, &scenery, &mut packets);
-                scratch.counters.cells += work.cells;
-                scratch.counters.surface_tests += work.surface_tests;
-                for (index, packet) in packets.iter().enumerate() {
-                    for lane in 0..LANES {
-                        let (x, y) = pixel_of(index, lane);
-                        let t = packet.t.0[lane];
-                        alone[y][x] |= packet.given_up.get(lane);
-                        if t < hits[y][x].map_or(f64::INFINITY, |(_, hit): (usize, Hit)| hit.t) {
-                            let ray = packet.rays.lane(lane);
-                            hits[y][x] = Some((number, hit_of(catalog, packet.words[lane] as u32, &ray, t, wanted)));
-                        }
-                    }
-                }
+    ) {
+        self.backend.run(TraceTile { tiles: self, corner, size, place, tile, scratch });
+        tile.alone.clear();
+        for packet in 0..PACKETS {
+            let mut left = tile.packets[packet].given_up;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let ray = tile.ray(packet, lane);
+                let hit = self.tracer.first_body_hit(&ray, f64::INFINITY, scratch);
+                tile.alone.push(((packet * LANES + lane) as u16, hit));
             }
         }
-        for y in 0..size.1 {
-            for x in 0..size.0 {
-                if alone[y][x] {
-                    hits[y][x] = self.tracer.first_body_hit(&at(x, y), f64::INFINITY, scratch);
-                }
+    }
+
+    /// What the ray of a pixel of the tile met.
+    pub fn hit(&self, tile: &RayTile, (x, y): (usize, usize)) -> TileHit {
+        let (number, lane) = lane_of(x, y);
+        let packet = &tile.packets[number];
+        if packet.given_up >> lane & 1 != 0 {
+            let index = (number * LANES + lane) as u16;
+            return tile.alone.iter().find(|(alone, _)| *alone == index).and_then(|(_, hit)| *hit);
+        }
+        tile.hit(self.tracer, number, lane)
+    }
+}
+
+impl RayTile {
+    /// One of its rays.
+    fn ray(&self, packet: usize, lane: usize) -> Ray {
+        let packet = &self.packets[packet];
+        let at = |v: &[Stored; 3]| Vec3::new(v[0].0[lane], v[1].0[lane], v[2].0[lane]);
+        let origin = if self.from_eye { self.beam.eye } else { at(&packet.origin) };
+        Ray { origin, direction: at(&packet.direction) }
+    }
+
+    /// What a ray met that was not given up.
+    fn hit(&self, tracer: &Tracer, number: usize, lane: usize) -> TileHit {
+        let packet = &self.packets[number];
+        if packet.met >> lane & 1 == 0 {
+            return None;
+        }
+        let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
+        let hit = hit_of(&tracer.catalog, packet.words[lane], &self.ray(number, lane), t, entering);
+        Some((packet.bodies[lane] as usize, hit))
+    }
+}
+
+/// [`Tiles::trace`], but for the rays that are given up.
+struct TraceTile<'a, 'b> {
+    tiles: &'b Tiles<'a>,
+    corner: (u32, u32),
+    size: (u32, u32),
+    place: (f64, f64),
+    tile: &'b mut RayTile,
+    scratch: &'b mut Scratch,
+}
+
+impl Task for TraceTile<'_, '_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { tiles, corner, size, place, tile, scratch } = self;
+        let corner = (f64::from(corner.0), f64::from(corner.1));
+        tile.beam = Beam::new(&tiles.camera, corner.0, corner.1);
+        tile.from_eye = !tiles.camera.orthographic;
+        let lanes_in = |number: usize| {
+            let mut wanted = 0;
+            for lane in 0..LANES {
+                let x = number % ACROSS * PACKET_PX.0 + lane % PACKET_PX.0;
+                let y = number / ACROSS * PACKET_PX.1 + lane / PACKET_PX.0;
+                wanted |= u8::from(x < size.0 as usize && y < size.1 as usize) << lane;
+            }
+            wanted
+        };
+        let is_whole = size.0 as usize >= TILE_PX && size.1 as usize >= TILE_PX;
+        for (number, packet) in tile.packets.iter_mut().enumerate() {
+            let wanted = if is_whole { u8::MAX } else { lanes_in(number) };
+            packet.set_out::<I>(&tiles.camera, number, corner, place, wanted);
+        }
+        for (number, body) in tiles.tracer.bodies.iter().enumerate() {
+            let Some(octree) = body.octree() else { continue };
+            for packet in &mut tile.packets {
+                packet.open = packet.wanted & !packet.given_up;
+                packet.started_there = 0;
+            }
+            let scenery = Scenery {
+                catalog: &tiles.tracer.catalog,
+                program: &body.program,
+                octree,
+                wanted: tiles.start_outside[number],
+                body: number as u32,
+            };
+            match tiles.camera.orthographic {
+                true => walk::<I, Own>(&scenery, Lead::Beam, tile, scratch),
+                false => walk::<I, Common>(&scenery, Lead::Beam, tile, scratch),
+            }
+            for packet in &mut tile.packets {
+                // The camera is on one side of everything.
+                packet.given_up |= packet.started_there;
             }
         }
-        hits
     }
 }

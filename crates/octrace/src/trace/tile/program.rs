@@ -4,33 +4,45 @@
 //! registers as a whole. Deeper programs are for scalar code.
 
 use super::crossing::{Crossed, Rays, plane, quadric};
-use super::lanes::{F64s, LANES, Mask};
+use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored};
 use crate::compile::{Catalog, Word, node_end};
 use crate::surface::Surface;
 
 /// The most operators above a literal.
-const MAX_LEVELS: usize = 3;
+pub(super) const MAX_LEVELS: usize = 3;
 /// The most words.
-const MAX_WORDS: usize = 48;
+pub(super) const MAX_WORDS: usize = 48;
 
-/// Whether a program can be evaluated here.
-pub(super) fn is_plain(catalog: &Catalog, words: &[u32]) -> bool {
-    words.len() <= MAX_WORDS
-        && levels_at_most(words, MAX_LEVELS)
-        && words.iter().all(|&word| is_plain_word(catalog, word))
+/// Whether a program has no more words and levels than can be evaluated here.
+pub(super) fn is_short(words: &[u32]) -> bool {
+    words.len() <= MAX_WORDS && levels_at_most(words, MAX_LEVELS)
 }
 
-fn is_plain_word(catalog: &Catalog, word: u32) -> bool {
-    match Word::decode(word) {
-        Word::Literal { index, .. } => {
-            let surface = catalog.literals[index as usize].surface;
-            matches!(catalog.surfaces[surface as usize], Surface::Plane(_) | Surface::Quadric(_))
+/// Whether all its surfaces can be crossed here.
+pub(super) fn is_plain(catalog: &Catalog, words: &[u32]) -> bool {
+    words.iter().all(|&word| match Word::decode(word) {
+        Word::Literal { .. } => {
+            matches!(surface_of(catalog, word), Some(Surface::Plane(_) | Surface::Quadric(_)))
         }
         Word::And { .. } | Word::Or { .. } => true,
+    })
+}
+
+/// The surface of a literal.
+#[inline(always)]
+pub(super) fn surface_of(catalog: &Catalog, word: u32) -> Option<&Surface> {
+    match Word::decode(word) {
+        Word::Literal { index, .. } => {
+            Some(&catalog.surfaces[catalog.literals[index as usize].surface as usize])
+        }
+        Word::And { .. } | Word::Or { .. } => None,
     }
 }
 
 fn levels_at_most(words: &[u32], most: usize) -> bool {
+    if words.len() <= most {
+        return true;
+    }
     let mut ends = [0; MAX_LEVELS];
     let mut open = 0;
     for (at, &word) in words.iter().enumerate() {
@@ -49,98 +61,158 @@ fn levels_at_most(words: &[u32], most: usize) -> bool {
 }
 
 /// How a program's value changes at eight parameters.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Changes {
-    pub before: Mask,
-    pub after: Mask,
+pub(super) struct Changes<I: Isa> {
+    pub before: Mask<I>,
+    pub after: Mask<I>,
     /// The word of the literal that is seen to change it, where it changes.
-    pub words: [u64; LANES],
+    pub words: [u32; LANES],
 }
 
-/// The crossings of eight rays with the literals of a program.
-#[derive(Debug)]
-pub(super) struct Solved<'a> {
-    words: &'a [u32],
-    rows: [Crossed; MAX_WORDS],
-}
-
-impl<'a> Solved<'a> {
-    pub fn empty() -> Self {
-        let nowhere = Crossed { starts_inside: Mask::NONE, a: F64s::INFINITY, b: F64s::INFINITY };
-        Self { words: &[], rows: [nowhere; MAX_WORDS] }
+/// The crossings of eight rays with one literal, which is plain.
+#[inline(always)]
+pub(super) fn crossed<I: Isa, N: Number<I>>(catalog: &Catalog, word: u32, rays: &Rays<I, N>) -> Crossed<I> {
+    let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
+    match surface_of(catalog, word) {
+        Some(Surface::Plane(surface)) => plane(surface, rays),
+        Some(Surface::Quadric(surface)) => quadric(surface, rays),
+        Some(Surface::Torus(_) | Surface::Mesh(_)) | None => Crossed::nowhere(),
     }
+    .negated(negated)
+}
 
-    /// Crosses the rays with every literal of a plain program.
+/// So many packets are solved for one program before it is looked at what follows.
+pub(super) const CHUNK: usize = 8;
+
+/// A [`Crossed`] in memory.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+struct Row {
+    a: Stored,
+    b: Stored,
+    starts_inside: u8,
+}
+
+/// The crossings of a few packets with the literals of a program: one literal after another, since finding out what it is
+/// takes as long as crossing eight rays with it.
+#[derive(Debug)]
+pub(super) struct Solved {
+    rows: Box<[[Row; CHUNK]; MAX_WORDS]>,
+}
+
+impl Default for Solved {
+    fn default() -> Self {
+        Self { rows: Box::new([[Row::default(); CHUNK]; MAX_WORDS]) }
+    }
+}
+
+impl Solved {
+    /// Crosses some packets' rays with every literal of a plain program.
     #[inline(always)]
-    pub fn solve(&mut self, catalog: &Catalog, words: &'a [u32], rays: &Rays) {
-        self.words = words;
-        for (row, &word) in self.rows.iter_mut().zip(words) {
-            if let Word::Literal { index, negated } = Word::decode(word) {
-                let surface = catalog.literals[index as usize].surface;
-                *row = match &catalog.surfaces[surface as usize] {
-                    Surface::Plane(surface) => plane(surface, rays),
-                    Surface::Quadric(surface) => quadric(surface, rays),
-                    Surface::Torus(_) | Surface::Mesh(_) => *row,
+    pub fn solve<I: Isa, N: Number<I>>(
+        &mut self,
+        catalog: &Catalog,
+        words: &[u32],
+        count: usize,
+        rays: impl Fn(usize) -> Rays<I, N>,
+    ) {
+        for (rows, &word) in self.rows.iter_mut().zip(words) {
+            let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
+            let rows = &mut rows[..count.min(CHUNK)];
+            match surface_of(catalog, word) {
+                Some(Surface::Plane(surface)) => {
+                    for (slot, row) in rows.iter_mut().enumerate() {
+                        *row = Row::new(plane(surface, &rays(slot)).negated(negated));
+                    }
                 }
-                .negated(negated);
+                Some(Surface::Quadric(surface)) => {
+                    for (slot, row) in rows.iter_mut().enumerate() {
+                        *row = Row::new(quadric(surface, &rays(slot)).negated(negated));
+                    }
+                }
+                Some(Surface::Torus(_) | Surface::Mesh(_)) | None => {}
             }
         }
     }
 
+    /// A packet, by its place in the chunk, with that program.
+    #[inline(always)]
+    pub fn packet<'a>(&'a self, words: &'a [u32], slot: usize) -> SolvedPacket<'a> {
+        SolvedPacket { rows: &self.rows, words, slot }
+    }
+}
+
+impl Row {
+    #[inline(always)]
+    fn new<I: Isa>(crossed: Crossed<I>) -> Self {
+        let Crossed { starts_inside, a, b } = crossed;
+        Self { a: a.stored(), b: b.stored(), starts_inside: starts_inside.bits() }
+    }
+
+    #[inline(always)]
+    fn crossed<I: Isa>(&self) -> Crossed<I> {
+        let starts_inside = Mask::from_bits(self.starts_inside);
+        Crossed { starts_inside, a: F64s::load(&self.a), b: F64s::load(&self.b) }
+    }
+}
+
+/// The crossings of eight rays with the literals of a program.
+#[derive(Clone, Copy)]
+pub(super) struct SolvedPacket<'a> {
+    rows: &'a [[Row; CHUNK]; MAX_WORDS],
+    words: &'a [u32],
+    slot: usize,
+}
+
+impl SolvedPacket<'_> {
     /// The first parameters `>= t` from which on the program is inside (`wanted`) or outside.
     #[inline(always)]
-    pub fn next(&self, t: F64s, wanted: bool) -> F64s {
+    pub fn next<I: Isa>(&self, t: F64s<I>, wanted: bool) -> F64s<I> {
         self.next_3(0, t, wanted)
     }
 
     /// How the program's value changes at `t`; see [`Roots::change`](super::super::roots::Roots::change).
     #[inline(always)]
-    pub fn changes(&self, t: F64s) -> Changes {
+    pub fn changes<I: Isa>(&self, t: F64s<I>) -> Changes<I> {
         self.changes_3(0, t)
     }
 
     #[inline(always)]
-    fn next_0(&self, at: usize, t: F64s, wanted: bool) -> F64s {
-        self.rows[at].next(t, wanted)
+    fn next_0<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
+        self.rows[at][self.slot].crossed().next(t, wanted)
     }
 
     #[inline(always)]
-    fn changes_0(&self, at: usize, t: F64s) -> Changes {
-        let row = &self.rows[at];
-        Changes { before: row.before(t), after: row.after(t), words: [u64::from(self.words[at]); LANES] }
+    fn changes_0<I: Isa>(&self, at: usize, t: F64s<I>) -> Changes<I> {
+        let row = self.rows[at][self.slot].crossed();
+        Changes { before: row.before(t), after: row.after(t), words: [self.words[at]; LANES] }
     }
 }
 
 /// Functions for programs of one level more than those that they are made of.
 macro_rules! level {
     ($next:ident, $changes:ident, $next_below:ident, $changes_below:ident) => {
-        impl Solved<'_> {
+        impl SolvedPacket<'_> {
             #[inline(always)]
-            fn $next(&self, at: usize, t: F64s, wanted: bool) -> F64s {
+            fn $next<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
                 let is_and = match Word::decode(self.words[at]) {
                     Word::Literal { .. } => return self.next_0(at, t, wanted),
                     Word::And { .. } => true,
                     Word::Or { .. } => false,
                 };
                 let end = node_end(self.words, at);
-                let mut child = at + 1;
-                if is_and != wanted {
-                    // One child is enough.
-                    let mut least = F64s::INFINITY;
-                    while child < end {
-                        least = least.min(self.$next_below(child, t, wanted));
-                        child = node_end(self.words, child);
-                    }
-                    return least;
-                }
-                // All children must agree.
-                let mut t = t;
+                // One child is enough, or all must agree.
+                let one = is_and != wanted;
+                let (mut t, mut least) = (t, F64s::infinity());
                 loop {
                     let start = t;
-                    child = at + 1;
+                    let mut child = at + 1;
                     while child < end {
-                        t = self.$next_below(child, t, wanted);
+                        let next = self.$next_below(child, t, wanted);
+                        (t, least) = if one { (t, least.min(next)) } else { (next, least) };
                         child = node_end(self.words, child);
+                    }
+                    if one {
+                        return least;
                     }
                     if t.eq(start).all() {
                         return t;
@@ -149,7 +221,7 @@ macro_rules! level {
             }
 
             #[inline(always)]
-            fn $changes(&self, at: usize, t: F64s) -> Changes {
+            fn $changes<I: Isa>(&self, at: usize, t: F64s<I>) -> Changes<I> {
                 let is_and = match Word::decode(self.words[at]) {
                     Word::Literal { .. } => return self.changes_0(at, t),
                     Word::And { .. } => true,
@@ -163,7 +235,8 @@ macro_rules! level {
                 let mut child = at + 1;
                 while child < end {
                     let change = self.$changes_below(child, t);
-                    let (enters, leaves) = (!change.before & change.after, change.before & !change.after);
+                    let turns = change.before ^ change.after;
+                    let (enters, leaves) = (turns & change.after, turns & change.before);
                     first_in = (no_in & enters).select_words(change.words, first_in);
                     first_out = (no_out & leaves).select_words(change.words, first_out);
                     (no_in, no_out) = (no_in & !enters, no_out & !leaves);
