@@ -59,7 +59,7 @@ class Copy:
 Node = Sphere | Box | Cylinder | Below | Combined | Copy
 
 # What programs without half-spaces get instead: a block this wide to every side, and this thick.
-FLOOR_HALF_WIDTH = 500.0
+FLOOR_HALF_WIDTH = 5000.0
 FLOOR_THICKNESS = 0.2
 
 

@@ -3,9 +3,8 @@
 
 use crate::interrupt::Interrupt;
 use octrace::model::CameraRays;
-use octrace::trace::{Backend, Counters, Scratch, TILE_PX, Tiles};
-use octrace::{Bounds, Camera, Hit, Light, Ray, Tracer, Vec3};
-use std::ops::AddAssign;
+use octrace::trace::{Backend, Counters, RayTile, Scratch, TILE_PX, Tiles};
+use octrace::{Camera, Hit, Light, Ray, Tracer, Vec3};
 use std::sync::{Mutex, PoisonError};
 
 /// How a picture is made, again and again.
@@ -17,13 +16,18 @@ pub struct Picture<'a> {
     size_px: (usize, usize),
 }
 
+/// What one thread works with.
+#[derive(Default)]
+struct Worker {
+    scratch: Scratch,
+    tile: RayTile,
+}
+
 impl<'a> Picture<'a> {
     /// The picture that `camera` takes of what is traced, lit by one light.
     pub fn new(tracer: &'a Tracer, camera: &Camera, light: Light, (width_px, height_px): (u32, u32)) -> Self {
         let rays = camera.rays(width_px, height_px);
-        let (right, low) = (f64::from(width_px), f64::from(height_px));
-        let corners = [(0.0, 0.0), (right, 0.0), (0.0, low), (right, low)].map(|(x, y)| rays.ray(x, y).origin);
-        let tiles = tracer.tiles(&Bounds::around(corners), Backend::best());
+        let tiles = tracer.tiles(&rays, (width_px, height_px), Backend::best());
         Self { tracer, tiles, rays, light, size_px: (width_px as usize, height_px as usize) }
     }
 
@@ -36,12 +40,12 @@ impl<'a> Picture<'a> {
     pub fn draw(&self, pixels: &mut [f32], threads: usize, interrupt: &Interrupt) -> Counters {
         let bands = Mutex::new(pixels.chunks_mut(self.size_px.0 * TILE_PX).enumerate());
         let work = || {
-            let mut scratch = Scratch::default();
+            let mut worker = Worker::default();
             while !interrupt.happened() {
                 let Some((band, pixels)) = bands.lock().unwrap_or_else(PoisonError::into_inner).next() else { break };
-                self.band(band * TILE_PX, pixels, &mut scratch);
+                self.band(band * TILE_PX, pixels, &mut worker);
             }
-            scratch.counters
+            worker.scratch.counters
         };
         let mut counters = Counters::default();
         if threads <= 1 {
@@ -50,7 +54,7 @@ impl<'a> Picture<'a> {
             std::thread::scope(|scope| {
                 let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
                 for worker in workers {
-                    counters.add_assign(worker.join().expect("drawing does not panic"));
+                    counters += worker.join().expect("drawing does not panic");
                 }
             });
         }
@@ -58,40 +62,34 @@ impl<'a> Picture<'a> {
     }
 
     /// A row of tiles, whose upper edge is at `top`.
-    fn band(&self, top: usize, pixels: &mut [f32], scratch: &mut Scratch) {
+    fn band(&self, top: usize, pixels: &mut [f32], worker: &mut Worker) {
         let width = self.size_px.0;
         let height = pixels.len() / width;
         for left in (0..width).step_by(TILE_PX) {
             let size = (TILE_PX.min(width - left), height);
-            let ray = |x: f64, y: f64| self.rays.ray(left as f64 + x, top as f64 + y);
-            self.tile(ray, size, scratch, |x, y, brightness| pixels[y * width + left + x] = brightness);
+            self.tile((left, top), size, worker, |x, y, brightness| pixels[y * width + left + x] = brightness);
         }
     }
 
     /// One tile: the only place that knows how the tracer yields hits.
     fn tile(
         &self,
-        ray: impl Fn(f64, f64) -> Ray,
+        (left, top): (usize, usize),
         (width, height): (usize, usize),
-        scratch: &mut Scratch,
+        worker: &mut Worker,
         mut store: impl FnMut(usize, usize, f32),
     ) {
-        let through = |x: usize, y: usize| ray(x as f64 + 0.5, y as f64 + 0.5);
-        match &self.tiles {
-            Some(tiles) => {
-                let hits = tiles.hits(&ray, (0.5, 0.5), (width, height), scratch);
-                for (y, row) in hits.iter().enumerate().take(height) {
-                    for (x, hit) in row.iter().enumerate().take(width) {
-                        store(x, y, self.brightness(&through(x, y), hit.map(|(_, hit)| hit)));
-                    }
-                }
-            }
-            None => {
-                for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-                    let ray = through(x, y);
-                    store(x, y, self.brightness(&ray, self.tracer.first_hit_within(&ray, f64::INFINITY, scratch)));
-                }
-            }
+        let Worker { scratch, tile } = worker;
+        if let Some(tiles) = &self.tiles {
+            tiles.trace((left as u32, top as u32), (width as u32, height as u32), (0.5, 0.5), tile, scratch);
+        }
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let ray = self.rays.ray((left + x) as f64 + 0.5, (top + y) as f64 + 0.5);
+            let hit = match &self.tiles {
+                Some(tiles) => tiles.hit(tile, (x, y)).map(|(_, hit)| hit),
+                None => self.tracer.first_hit_within(&ray, f64::INFINITY, scratch),
+            };
+            store(x, y, self.brightness(&ray, hit));
         }
     }
 

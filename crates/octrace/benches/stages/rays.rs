@@ -1,10 +1,10 @@
 //! Camera rays: in tiles, one by one, and along the cells alone.
 
-use crate::scenes::{NAMES, RAYS, Shot, solid, tiles};
+use crate::scenes::{NAMES, RAYS, SIZE_PX, Shot, solid, tiles};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use octrace::TracerOptions;
-use octrace::trace::{Backend, Scratch, TILE_PX};
+use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX};
 use octrace::traverse::{TraversalKind, root_interval};
 use std::ops::ControlFlow;
 
@@ -17,13 +17,28 @@ fn in_tiles(bencher: Bencher, name: &str) {
 
 /// Finds the hits of a whole picture.
 pub fn draw(bencher: Bencher, shot: &Shot, backend: Backend) {
-    let tiled = shot.tracer.tiles(&shot.origins(), backend).expect("these scenes are traced in tiles");
-    let mut scratch = Scratch::default();
+    let (width, height) = SIZE_PX;
+    let tiled = shot.tracer.tiles(&shot.rays, (width as u32, height as u32), backend);
+    let tiled = tiled.expect("these scenes are traced in tiles");
+    let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
     bencher.counter(ItemsCount::new(RAYS)).bench_local(|| {
-        for (left, top) in tiles() {
-            let ray = |x: f64, y: f64| shot.rays.ray(left + x, top + y);
-            black_box(tiled.hits(ray, (0.5, 0.5), (TILE_PX, TILE_PX), &mut scratch));
+        for corner in tiles() {
+            tiled.trace(corner, (TILE_PX as u32, TILE_PX as u32), (0.5, 0.5), &mut tile, &mut scratch);
+            black_box(tiled.hit(&tile, (0, 0)));
         }
+    });
+}
+
+/// The same rays as a stream, of which nothing is known but that neighbours are near.
+#[divan::bench(args = NAMES, max_time = 2)]
+fn in_streams(bencher: Bencher, name: &str) {
+    let shot = Shot::of(&solid(name), &TracerOptions::default());
+    let rays: Vec<RayTo> = shot.all_rays().into_iter().map(|ray| RayTo { ray, end: f64::INFINITY }).collect();
+    let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
+    let mut hits = vec![None; RAYS];
+    bencher.counter(ItemsCount::new(RAYS)).bench_local(|| {
+        shot.tracer.first_hits_into(&rays, Backend::best(), &mut tile, &mut scratch, &mut hits);
+        black_box(&hits);
     });
 }
 

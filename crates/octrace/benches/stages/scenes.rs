@@ -3,7 +3,7 @@
 use octrace::exec::Exec;
 use octrace::model::{CameraRays, families, frame_all};
 use octrace::trace::TILE_PX;
-use octrace::{Bounds, Camera, Projection, Ray, Solid, Tracer, TracerOptions};
+use octrace::{Camera, Projection, Ray, Solid, Tracer, TracerOptions};
 
 /// Pixels of a picture: whole tiles.
 pub const SIZE_PX: (usize, usize) = (256, 192);
@@ -53,15 +53,10 @@ impl Shot {
         let at = |i: usize| self.rays.ray((i % SIZE_PX.0) as f64 + 0.5, (i / SIZE_PX.0) as f64 + 0.5);
         (0..RAYS).map(at).collect()
     }
-
-    /// A box around the rays' origins.
-    pub fn origins(&self) -> Bounds {
-        Bounds::around([self.camera.eye])
-    }
 }
 
 /// The upper left corners of a picture's tiles.
-pub fn tiles() -> impl Iterator<Item = (f64, f64)> {
-    let starts = |size: usize| (0..size).step_by(TILE_PX).map(|start| start as f64);
+pub fn tiles() -> impl Iterator<Item = (u32, u32)> {
+    let starts = |size: usize| (0..size).step_by(TILE_PX).map(|start| start as u32);
     starts(SIZE_PX.1).flat_map(move |top| starts(SIZE_PX.0).map(move |left| (left, top)))
 }

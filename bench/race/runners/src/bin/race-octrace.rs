@@ -2,8 +2,8 @@
 
 use octrace::exec::Exec;
 use octrace::model::CameraRays;
-use octrace::trace::{Backend, Scratch, TILE_PX, Tiles};
-use octrace::{Bounds, Hit, Light, Ray, Tracer, TracerOptions, Vec3};
+use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX, Tiles};
+use octrace::{Hit, Light, Ray, Tracer, TracerOptions, Vec3};
 use octrace_race::{Clock, Command, Outcome, argument, serve, write_floats};
 use octrace_read::{ReadOptions, Source, read_scene};
 
@@ -25,7 +25,7 @@ fn main() -> Outcome {
         return Err("the first light is to be a lamp".into());
     };
     let rays = camera.rays(WIDTH as u32, HEIGHT as u32);
-    let tiles = tracer.tiles(&Bounds::around([camera.eye]), Backend::best());
+    let tiles = tracer.tiles(&rays, (WIDTH as u32, HEIGHT as u32), Backend::best());
     let tiles = tiles.ok_or("this scene is not traced in tiles")?;
     let mut runner = Runner { tracer: &tracer, tiles, rays, light: *light, film: vec![[0.0; 4]; WIDTH * HEIGHT] };
     serve(|command| {
@@ -64,42 +64,59 @@ struct Runner<'a> {
 impl Runner<'_> {
     /// Traces the camera's rays, and stores distances and normals.
     fn draw(&mut self) {
-        let mut scratch = Scratch::default();
-        for top in (0..HEIGHT).step_by(TILE_PX) {
-            for left in (0..WIDTH).step_by(TILE_PX) {
-                let ray = |x: f64, y: f64| self.rays.ray(left as f64 + x, top as f64 + y);
-                let hits = self.tiles.hits(ray, (0.5, 0.5), (TILE_PX, TILE_PX), &mut scratch);
-                for (y, row) in hits.iter().enumerate() {
-                    for (x, hit) in row.iter().enumerate() {
-                        let ray = ray(x as f64 + 0.5, y as f64 + 0.5);
-                        self.film[(top + y) * WIDTH + left + x] = stored(self.tracer, &ray, hit.map(|(_, hit)| hit));
-                    }
-                }
+        let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
+        for (left, top) in corners() {
+            let size = (TILE_PX as u32, TILE_PX as u32);
+            self.tiles.trace((left as u32, top as u32), size, (0.5, 0.5), &mut tile, &mut scratch);
+            for (x, y) in pixels() {
+                let ray = self.rays.ray((left + x) as f64 + 0.5, (top + y) as f64 + 0.5);
+                let hit = self.tiles.hit(&tile, (x, y)).map(|(_, hit)| hit);
+                self.film[(top + y) * WIDTH + left + x] = stored(self.tracer, &ray, hit);
             }
         }
     }
 
     /// From every hit that faces the light a ray to it; returns how many.
     fn shade(&self) -> u64 {
-        let mut scratch = Scratch::default();
-        let (mut traced, mut lit) = (0, 0_u64);
-        for (index, &[t, nx, ny, nz]) in self.film.iter().enumerate() {
-            if t.is_infinite() {
-                continue;
-            }
-            let ray = self.rays.ray((index % WIDTH) as f64 + 0.5, (index / WIDTH) as f64 + 0.5);
-            let normal = Vec3::new(nx.into(), ny.into(), nz.into());
-            let origin = ray.at(f64::from(t)) + normal * (1e-4 * f64::from(t));
-            let direction = self.light - origin;
-            if normal.dot(direction) > 0.0 {
-                traced += 1;
-                let shadow = Ray { origin, direction };
-                lit += u64::from(self.tracer.first_hit_within(&shadow, 1.0, &mut scratch).is_none());
-            }
+        let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
+        let (mut traced, mut lit) = (0, 0);
+        let mut shadows: Vec<RayTo> = Vec::new();
+        let mut met = Vec::new();
+        for (left, top) in corners() {
+            shadows.clear();
+            shadows.extend(pixels().filter_map(|(x, y)| self.to_light(left + x, top + y)));
+            met.clear();
+            met.resize(shadows.len(), None);
+            self.tracer.first_hits_into(&shadows, Backend::best(), &mut tile, &mut scratch, &mut met);
+            traced += shadows.len();
+            lit += met.iter().filter(|hit| hit.is_none()).count();
         }
         std::hint::black_box(lit);
-        traced
+        traced as u64
     }
+
+    /// The ray from what a pixel shows to the light, if that is on the outer side.
+    fn to_light(&self, x: usize, y: usize) -> Option<RayTo> {
+        let [t, nx, ny, nz] = self.film[y * WIDTH + x];
+        if t.is_infinite() {
+            return None;
+        }
+        let ray = self.rays.ray(x as f64 + 0.5, y as f64 + 0.5);
+        let normal = Vec3::new(nx.into(), ny.into(), nz.into());
+        let origin = ray.at(f64::from(t)) + normal * (1e-4 * f64::from(t));
+        let direction = self.light - origin;
+        (normal.dot(direction) > 0.0).then_some(RayTo { ray: Ray { origin, direction }, end: 1.0 })
+    }
+}
+
+/// The upper left corners of all tiles.
+fn corners() -> impl Iterator<Item = (usize, usize)> {
+    (0..HEIGHT).step_by(TILE_PX).flat_map(|top| (0..WIDTH).step_by(TILE_PX).map(move |left| (left, top)))
+}
+
+/// The pixels of a tile.
+fn pixels() -> impl Iterator<Item = (usize, usize)> {
+    (0..TILE_PX).flat_map(|y| (0..TILE_PX).map(move |x| (x, y)))
 }
 
 fn stored(tracer: &Tracer, ray: &Ray, hit: Option<Hit>) -> [f32; 4] {
