@@ -2,9 +2,10 @@
 
 use super::Film;
 use crate::exec::{Cancelled, Exec};
+use crate::geom::Ray;
 use crate::model::{Camera, CameraRays, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
-use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Seen, Whitted};
-use crate::trace::{Backend, Counters, RayTile, Scratch, Tiles, Tracer};
+use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Seen, Wave, Whitted, Workshop};
+use crate::trace::{Backend, Counters, RayTile, Scratch, TileHit, Tiles, Tracer};
 use rayon::prelude::*;
 use std::ops::AddAssign;
 
@@ -95,7 +96,7 @@ pub fn ray_tree(scene: &Scene, tracer: &Tracer, view: &View, (x, y): (u32, u32))
     let integrator = integrator(scene, tracer, view);
     let mut scratch = Scratch::default();
     let first = tracer.first_body_hit(&ray, f64::INFINITY, &mut scratch);
-    integrator.camera_ray(&ray, first, &mut scratch, &mut RayCounts::default(), &mut recorder);
+    integrator.camera_ray(&ray, first, &mut scratch, &mut recorder);
     recorder.tree
 }
 
@@ -133,6 +134,8 @@ struct TileCamera<'a> {
 struct Worker {
     scratch: Scratch,
     rays: RayTile,
+    hits: Vec<(Ray, TileHit)>,
+    wave: Wave,
 }
 
 struct Tile {
@@ -147,7 +150,7 @@ impl Tile {
         camera: &TileCamera,
         view: &View,
         (left, top): (u32, u32),
-        Worker { scratch, rays }: &mut Worker,
+        Worker { scratch, rays, hits, wave }: &mut Worker,
     ) -> Self {
         let (width, height) = ((view.width_px - left).min(TILE_PX), (view.height_px - top).min(TILE_PX));
         let samples = view.samples.max(1);
@@ -159,17 +162,23 @@ impl Tile {
             if let Some(tiles) = &camera.together {
                 tiles.trace((left, top), (width, height), place, rays, scratch);
             }
-            for (sum, index) in sums.iter_mut().zip(0..) {
-                let (x, y) = (index % width, index / width);
+            hits.clear();
+            for (x, y) in (0..width * height).map(|index| (index % width, index / width)) {
                 let ray = camera.rays.ray(f64::from(left + x) + place.0, f64::from(top + y) + place.1);
                 let hit = match &camera.together {
                     Some(tiles) => tiles.hit(rays, (x as usize, y as usize)),
                     None => camera.tracer.first_body_hit(&ray, f64::INFINITY, scratch),
                 };
-                let seen = integrator.camera_ray(&ray, hit, scratch, &mut stats.rays, &mut ());
-                sum.color += seen.color;
-                sum.alpha += seen.alpha;
+                hits.push((ray, hit));
             }
+            let mut workshop = Workshop { tile: rays, scratch, counts: &mut stats.rays };
+            let mut sums = sums.iter_mut();
+            wave.camera_rays(integrator, hits.iter().copied(), &mut workshop, |seen| {
+                if let Some(sum) = sums.next() {
+                    sum.color += seen.color;
+                    sum.alpha += seen.alpha;
+                }
+            });
         }
         let share = 1.0 / f64::from(samples);
         let pixel = |Seen { color, alpha }| [color.r * share, color.g * share, color.b * share, alpha * share];

@@ -51,6 +51,10 @@ impl Vec3 {
     /// The vector of length one in the same direction, or `None` where there is no direction: a zero, infinite or NaN
     /// vector. Safe from overflow and underflow.
     pub fn normalized(self) -> Option<Self> {
+        let squared = self.dot(self);
+        if (1e-200..1e200).contains(&squared) {
+            return Some(self / squared.sqrt());
+        }
         let largest = self.max_abs();
         if !(largest > 0.0 && largest.is_finite()) {
             return None;

@@ -1,5 +1,6 @@
 //! Colours, in linear light.
 
+use crate::num::power_of_fraction;
 use std::ops::{Add, AddAssign, Mul};
 
 /// Red, green and blue in linear light, with the sRGB primaries. One is the white of a display; more is brighter.
@@ -49,7 +50,7 @@ pub fn srgb_to_linear(v: f64) -> f64 {
 /// Encodes one component as sRGB (IEC 61966-2-1), after cutting it to 0..=1; NaN becomes 0.
 pub fn linear_to_srgb(v: f64) -> f64 {
     let v = if v > 0.0 { v.min(1.0) } else { 0.0 };
-    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * libm::pow(v, 1.0 / 2.4) - 0.055 }
+    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * power_of_fraction(v, 1.0 / 2.4) - 0.055 }
 }
 
 impl Add for Rgb {

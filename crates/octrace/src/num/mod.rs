@@ -1,5 +1,7 @@
-//! Numbers: finding roots.
+//! Numbers: finding roots, powers.
 
+mod power;
 mod roots;
 
+pub use power::power_of_fraction;
 pub use roots::{bracketed_root, cubic_roots};

@@ -10,7 +10,8 @@
 
 use super::ray_tree::{RayKind, Watch};
 use crate::geom::{Hit, Ray, Vec3};
-use crate::model::{Light, Material, Rgb, Scene};
+use crate::model::{Light, Material, PartId, Rgb, Scene};
+use crate::num::power_of_fraction;
 use crate::trace::{Scratch, SurfacePoint, Tracer};
 use std::ops::AddAssign;
 
@@ -61,6 +62,8 @@ pub(crate) struct Whitted<'a> {
     max_bounces: u32,
     /// How far new rays start off the surface, per unit of the numbers involved.
     size: f64,
+    /// What parts without a material are made of.
+    default_material: Material,
 }
 
 /// Rays that contribute less than this are not traced: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
@@ -82,7 +85,7 @@ pub(crate) struct Seen {
 
 /// The transparent bodies that a ray is inside, in the order in which it went in.
 #[derive(Clone, Copy, Debug, Default)]
-struct Media {
+pub(super) struct Media {
     bodies: [u16; Self::MAX],
     count: usize,
 }
@@ -112,177 +115,219 @@ impl Media {
     }
 }
 
+/// A surface that a ray meets, ready to be lit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub point: SurfacePoint,
+    pub material: Material,
+    toward_viewer: Vec3,
+    /// Towards the side that is seen.
+    normal: Vec3,
+    /// Where new rays start on that side, and how far off the surface that is.
+    above: Vec3,
+    offset: f64,
+}
+
+/// What a light would bring to a surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lit {
+    /// The ray to the light, which is at `reach`.
+    pub shadow: Ray,
+    pub reach: f64,
+    pub intensity: Rgb,
+    /// By what arriving light is multiplied on its way to the viewer.
+    pub factor: Rgb,
+}
+
+/// A ray that goes on from a surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Branch {
+    pub ray: Ray,
+    pub media: Media,
+    /// By what the light along it is multiplied.
+    pub factor: Rgb,
+    /// How much of the pixel it makes at most.
+    pub weight: f64,
+}
+
+/// Where a ray stands in its tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Standing {
+    pub media: Media,
+    pub bounce: u32,
+    /// How much of the pixel it makes at most.
+    pub weight: f64,
+    /// Whether it comes from the camera, if through glass.
+    pub direct: bool,
+}
+
+impl Standing {
+    /// The standing of a ray that goes on from the end of this one.
+    pub fn of(self, branch: &Branch, refracted: bool) -> Self {
+        let Branch { media, weight, .. } = *branch;
+        Self { media, bounce: self.bounce + 1, weight, direct: self.direct && refracted }
+    }
+}
+
 impl<'a> Whitted<'a> {
     /// Light for the scene as the tracer knows it. `body_ior` is the index of refraction inside each body of the tracer,
     /// as [`Scene::bodies`] says.
     pub fn new(scene: &'a Scene, tracer: &'a Tracer, lighting: Lighting, body_ior: Vec<f64>, max_bounces: u32) -> Self {
         let size = tracer.bounds().size().max_abs();
-        Self { scene, tracer, lighting, body_ior, max_bounces, size }
+        let default_material = scene.material(None);
+        Self { scene, tracer, lighting, body_ior, max_bounces, size, default_material }
     }
 
-    /// Light along a camera ray that meets `first`; `watch` sees every ray that is traced for it.
+    /// Light along a camera ray that meets `first`; `watch` sees every ray that is traced for it. One ray after another:
+    /// for whole tiles see [`super::Wave`], which makes the same of them.
     pub(crate) fn camera_ray(
         &self,
         ray: &Ray,
         first: Option<(usize, Hit)>,
         scratch: &mut Scratch,
-        counts: &mut RayCounts,
         watch: &mut impl Watch,
     ) -> Seen {
-        counts.camera += 1;
+        let standing = self.camera_standing(ray, scratch);
+        watch.sets_out(RayKind::Camera, ray, Rgb::WHITE);
+        let seen = Path { integrator: self, scratch, watch }.seen(ray, first, standing);
+        watch.returns(seen.color);
+        seen
+    }
+
+    pub(super) fn tracer(&self) -> &'a Tracer {
+        self.tracer
+    }
+
+    pub(super) fn lights(&self) -> &[Light] {
+        &self.lighting.lights
+    }
+
+    /// How a camera ray sets out.
+    pub(super) fn camera_standing(&self, ray: &Ray, scratch: &mut Scratch) -> Standing {
         let mut media = Media::default();
-        let may_start_inside = self.tracer.is_unbounded() || self.tracer.bounds().contains(ray.origin);
-        if self.tracer.bodies() > 1 && may_start_inside {
+        if self.tracer.bodies() > 1 && (self.tracer.is_unbounded() || self.tracer.bounds().contains(ray.origin)) {
             for body in 0..self.tracer.bodies() {
                 if self.tracer.body_contains(body, ray.origin, scratch) {
                     media = media.enter(body);
                 }
             }
         }
-        watch.sets_out(RayKind::Camera, ray, Rgb::WHITE);
-        let seen = Path { integrator: self, scratch, counts, watch }.seen(ray, first, media, 0, 1.0, true);
-        watch.returns(seen.color);
-        seen
+        Standing { media, bounce: 0, weight: 1.0, direct: true }
+    }
+
+    /// As [`Scene::material`].
+    fn material(&self, part: Option<PartId>) -> Material {
+        part.and_then(|PartId(index)| self.scene.parts.get(index as usize))
+            .map_or(self.default_material, |part| part.material)
     }
 
     fn ior(&self, media: &Media) -> f64 {
         media.inside().last().map_or(1.0, |&body| self.body_ior.get(usize::from(body)).copied().unwrap_or(1.0))
     }
-}
 
-/// One tree of rays.
-struct Path<'a, 'b, W> {
-    integrator: &'b Whitted<'a>,
-    scratch: &'b mut Scratch,
-    counts: &'b mut RayCounts,
-    watch: &'b mut W,
-}
-
-impl<W: Watch> Path<'_, '_, W> {
-    /// Light along a ray.
-    fn radiance(&mut self, ray: &Ray, media: Media, bounce: u32, weight: f64, direct: bool) -> Seen {
-        let first = self.integrator.tracer.first_body_hit(ray, f64::INFINITY, self.scratch);
-        self.seen(ray, first, media, bounce, weight, direct)
+    /// What is seen along a ray that meets nothing.
+    pub(super) fn nothing(&self, direct: bool) -> Seen {
+        match direct && self.lighting.transparent {
+            true => Seen { color: Rgb::BLACK, alpha: 0.0 },
+            false => Seen { color: self.lighting.background, alpha: 1.0 },
+        }
     }
 
-    /// Light along a ray that meets `first`. `direct` says that the ray comes from the camera, if through glass.
-    fn seen(
-        &mut self,
-        ray: &Ray,
-        first: Option<(usize, Hit)>,
-        media: Media,
-        bounce: u32,
-        weight: f64,
-        direct: bool,
-    ) -> Seen {
-        let Whitted { tracer, lighting, .. } = self.integrator;
-        let Some((body, hit)) = first else {
-            return match direct && lighting.transparent {
-                true => Seen { color: Rgb::BLACK, alpha: 0.0 },
-                false => Seen { color: lighting.background, alpha: 1.0 },
-            };
-        };
-        let point = tracer.surface_point(ray, &hit);
-        self.watch.meets(&hit, &point);
-        let material = self.integrator.scene.material(point.part);
+    /// What a ray meets.
+    pub(super) fn met(&self, ray: &Ray, hit: &Hit) -> Met {
+        let point = self.tracer.surface_point(ray, hit);
+        let material = self.material(point.part);
         let toward_viewer = -ray.direction.normalized().unwrap_or(Vec3::Z);
         let normal = if point.normal.dot(toward_viewer) < 0.0 { -point.normal } else { point.normal };
-        let offset = self.integrator.offset(ray, &hit, &point);
-        let above = point.position + normal * offset;
+        let offset = self.offset(ray, hit, &point);
+        Met { point, material, toward_viewer, normal, above: point.position + normal * offset, offset }
+    }
 
-        let mut color = self.local(&material, above, normal, toward_viewer);
-        let mut alpha = 1.0;
-        let (mut kr, mut refraction) = (material.kr, None);
+    /// The ambient light of a surface.
+    pub(super) fn ambient(&self, met: &Met) -> Rgb {
+        met.material.color * self.lighting.ambient * met.material.ka
+    }
+
+    /// What a light brings to a surface if nothing is in its way: diffuse and specular.
+    pub(super) fn lit(&self, met: &Met, light: &Light) -> Option<Lit> {
+        let Met { material, toward_viewer, normal, above, .. } = met;
+        let (to_light, reach, intensity) = match *light {
+            Light::Point { position, intensity } => (position - *above, 1.0, intensity),
+            Light::Directional { direction, intensity } => (-direction, f64::INFINITY, intensity),
+        };
+        let unit = to_light.normalized()?;
+        let cosine = normal.dot(unit);
+        if cosine <= 0.0 {
+            return None;
+        }
+        let highlight = toward_viewer.dot(mirror(-unit, *normal)).max(0.0);
+        let specular = material.ks * power(highlight, material);
+        let factor = material.color * (material.kd * cosine) + Rgb::gray(specular);
+        let shadow = Ray { origin: *above, direction: to_light };
+        (factor.max_component() > 0.0).then_some(Lit { shadow, reach, intensity, factor })
+    }
+
+    /// The refracted and the reflected ray, where there are such.
+    pub(super) fn branches(
+        &self,
+        ray: &Ray,
+        (body, hit): (usize, Hit),
+        met: &Met,
+        standing: &Standing,
+    ) -> (Option<Branch>, Option<Branch>) {
+        let Met { point, material, toward_viewer, normal, above, offset } = met;
+        let Standing { media, bounce, weight, .. } = *standing;
+        let (mut kr, mut refracted) = (material.kr, None);
         if material.is_transparent() {
             let beyond = if hit.entering { media.enter(body) } else { media.leave(body) };
             // A transparent leaf of an opaque body refracts by its own index.
-            let (n1, n2) = match (self.integrator.ior(&media), self.integrator.ior(&beyond)) {
+            let (n1, n2) = match (self.ior(&media), self.ior(&beyond)) {
                 (1.0, 1.0) if hit.entering => (1.0, material.ior),
                 (1.0, 1.0) => (material.ior, 1.0),
                 pair => pair,
             };
-            match refract(ray.direction, normal, n1 / n2) {
+            match refract(ray.direction, *normal, n1 / n2) {
                 Some(direction) => {
-                    let below = point.position + normal * -offset;
-                    refraction = Some((Ray { origin: below, direction }, beyond));
+                    let ray = Ray { origin: point.position + *normal * -offset, direction };
+                    let factor = material.transmission();
+                    let weight = weight * factor.max_component();
+                    refracted = Some(Branch { ray, media: beyond, factor, weight });
                 }
                 None => kr += material.kt,
             }
         }
-        if let Some((refracted, beyond)) = refraction {
-            let filter = material.transmission();
-            let share = weight * filter.max_component();
-            if bounce < self.integrator.max_bounces && share >= LEAST_WEIGHT {
-                self.counts.refracted += 1;
-                self.watch.sets_out(RayKind::Refracted, &refracted, filter);
-                let seen = self.radiance(&refracted, beyond, bounce + 1, share, direct);
-                self.watch.returns(seen.color);
-                color += seen.color * filter;
-                alpha -= material.kt * (1.0 - seen.alpha);
-            }
-        }
-        if kr > 0.0 && bounce < self.integrator.max_bounces && weight * kr >= LEAST_WEIGHT {
-            self.counts.reflected += 1;
-            let reflected = Ray { origin: above, direction: mirror(-toward_viewer, normal) };
-            self.watch.sets_out(RayKind::Reflected, &reflected, Rgb::gray(kr));
-            let seen = self.radiance(&reflected, media, bounce + 1, weight * kr, false);
-            self.watch.returns(seen.color);
-            color += seen.color * kr;
-        }
-        Seen { color, alpha: alpha.clamp(0.0, 1.0) }
+        let mirrored = || Ray { origin: *above, direction: mirror(-*toward_viewer, *normal) };
+        let reflected =
+            (kr > 0.0).then(|| Branch { ray: mirrored(), media, factor: Rgb::gray(kr), weight: weight * kr });
+        let counts = |branch: &Branch| bounce < self.max_bounces && branch.weight >= LEAST_WEIGHT;
+        (refracted.filter(counts), reflected.filter(counts))
     }
 
-    /// Ambient, diffuse and specular light at a point.
-    fn local(&mut self, material: &Material, above: Vec3, normal: Vec3, toward_viewer: Vec3) -> Rgb {
-        let Whitted { lighting, .. } = self.integrator;
-        let mut sum = material.color * lighting.ambient * material.ka;
-        for (number, light) in lighting.lights.iter().enumerate() {
-            let (to_light, reach, intensity) = match *light {
-                Light::Point { position, intensity } => (position - above, 1.0, intensity),
-                Light::Directional { direction, intensity } => (-direction, f64::INFINITY, intensity),
-            };
-            let Some(unit) = to_light.normalized() else { continue };
-            let cosine = normal.dot(unit);
-            if cosine <= 0.0 {
-                continue;
-            }
-            let highlight = toward_viewer.dot(mirror(-unit, normal)).max(0.0);
-            let specular = if material.ks > 0.0 { material.ks * libm::pow(highlight, material.shininess) } else { 0.0 };
-            let factor = material.color * (material.kd * cosine) + Rgb::gray(specular);
-            if factor.max_component() <= 0.0 {
-                continue;
-            }
-            let shadow = Ray { origin: above, direction: to_light };
-            self.watch.sets_out(RayKind::Shadow { light: number }, &shadow, intensity * factor);
-            let share = self.unshadowed(&shadow, reach);
-            self.watch.returns(share);
-            let arriving = intensity * share;
-            sum += arriving * factor;
-        }
-        sum
-    }
-
-    /// What share of light comes through to the ray's origin from `t = reach`.
-    fn unshadowed(&mut self, ray: &Ray, reach: f64) -> Rgb {
-        let Whitted { scene, tracer, .. } = self.integrator;
-        self.counts.shadow += 1;
+    /// What share of light comes through to the ray's origin from `t = reach`, if `first` is what the ray meets first.
+    pub(super) fn unshadowed(
+        &self,
+        ray: &Ray,
+        reach: f64,
+        first: Option<(usize, Hit)>,
+        scratch: &mut Scratch,
+        watch: &mut impl Watch,
+    ) -> Rgb {
         let mut share = Rgb::WHITE;
-        let mut ray = *ray;
-        let mut reach = reach;
+        let (mut ray, mut reach, mut next) = (*ray, reach, first);
         for _ in 0..MAX_SHADOW_CROSSINGS {
-            let Some((_, hit)) = tracer.first_body_hit(&ray, reach, self.scratch) else {
+            let Some((_, hit)) = next else {
                 return share;
             };
-            let point = tracer.surface_point(&ray, &hit);
-            self.watch.meets(&hit, &point);
-            share = share * scene.material(point.part).transmission();
+            let point = self.tracer.surface_point(&ray, &hit);
+            watch.meets(&hit, &point);
+            share = share * self.material(point.part).transmission();
             if share.max_component() < LEAST_WEIGHT {
                 return Rgb::BLACK;
             }
             // On from the far side of the surface, towards the same light.
             let along = if point.normal.dot(ray.direction) < 0.0 { -point.normal } else { point.normal };
             let end = ray.at(reach);
-            ray.origin = point.position + along * self.integrator.offset(&ray, &hit, &point);
+            ray.origin = point.position + along * self.offset(&ray, &hit, &point);
             if reach.is_finite() {
                 ray.direction = end - ray.origin;
                 reach = 1.0;
@@ -290,17 +335,91 @@ impl<W: Watch> Path<'_, '_, W> {
             if ray.direction == Vec3::ZERO {
                 return share;
             }
+            next = self.tracer.first_body_hit(&ray, reach, scratch);
         }
         Rgb::BLACK
     }
-}
 
-impl Whitted<'_> {
     /// How far a ray that starts at a hit must start off the surface, so as not to meet it again.
     fn offset(&self, ray: &Ray, hit: &Hit, point: &SurfacePoint) -> f64 {
         let travelled = hit.t * ray.direction.max_abs();
         OFFSET * self.size.max(point.position.max_abs()).max(travelled)
     }
+}
+
+/// One tree of rays, from the root down.
+struct Path<'a, 'b, W> {
+    integrator: &'b Whitted<'a>,
+    scratch: &'b mut Scratch,
+    watch: &'b mut W,
+}
+
+impl<W: Watch> Path<'_, '_, W> {
+    /// Light along a ray that meets `first`.
+    fn seen(&mut self, ray: &Ray, first: Option<(usize, Hit)>, standing: Standing) -> Seen {
+        let Some((body, hit)) = first else {
+            return self.integrator.nothing(standing.direct);
+        };
+        let met = self.integrator.met(ray, &hit);
+        self.watch.meets(&hit, &met.point);
+        let mut seen = Seen { color: self.local(&met), alpha: 1.0 };
+        let (refracted, reflected) = self.integrator.branches(ray, (body, hit), &met, &standing);
+        if let Some(branch) = refracted {
+            seen.refract(self.along(RayKind::Refracted, &branch, standing.of(&branch, true)), &branch, &met.material);
+        }
+        if let Some(branch) = reflected {
+            seen.reflect(self.along(RayKind::Reflected, &branch, standing.of(&branch, false)), &branch);
+        }
+        seen
+    }
+
+    /// Light along a ray that goes on from a surface.
+    fn along(&mut self, kind: RayKind, branch: &Branch, standing: Standing) -> Seen {
+        self.watch.sets_out(kind, &branch.ray, branch.factor);
+        let first = self.integrator.tracer.first_body_hit(&branch.ray, f64::INFINITY, self.scratch);
+        let seen = self.seen(&branch.ray, first, standing);
+        self.watch.returns(seen.color);
+        seen
+    }
+
+    /// Ambient, diffuse and specular light at a point.
+    fn local(&mut self, met: &Met) -> Rgb {
+        let integrator = self.integrator;
+        let mut sum = integrator.ambient(met);
+        for (number, light) in integrator.lights().iter().enumerate() {
+            let Some(Lit { shadow, reach, intensity, factor }) = integrator.lit(met, light) else { continue };
+            self.watch.sets_out(RayKind::Shadow { light: number }, &shadow, intensity * factor);
+            let first = integrator.tracer.first_body_hit(&shadow, reach, self.scratch);
+            let share = integrator.unshadowed(&shadow, reach, first, self.scratch, self.watch);
+            self.watch.returns(share);
+            sum += intensity * share * factor;
+        }
+        sum
+    }
+}
+
+impl Seen {
+    /// Adds what is seen along the refracted ray.
+    pub(super) fn refract(&mut self, behind: Self, branch: &Branch, material: &Material) {
+        self.color += behind.color * branch.factor;
+        self.alpha = (self.alpha - material.kt * (1.0 - behind.alpha)).clamp(0.0, 1.0);
+    }
+
+    /// Adds what is seen along the reflected ray.
+    pub(super) fn reflect(&mut self, mirrored: Self, branch: &Branch) {
+        self.color += mirrored.color * branch.factor;
+    }
+}
+
+/// The highlight, to the power of the material's shininess.
+fn power(highlight: f64, material: &Material) -> f64 {
+    /// `exp(-14)` is less than a millionth: nobody sees that.
+    const FAINT: f64 = 14.0;
+    // The logarithm of x is at most x - 1.
+    if material.ks <= 0.0 || material.shininess * (1.0 - highlight) > FAINT {
+        return 0.0;
+    }
+    power_of_fraction(highlight, material.shininess)
 }
 
 /// The direction after reflection at a plane with this normal.

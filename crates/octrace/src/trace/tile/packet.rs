@@ -45,7 +45,14 @@ pub(super) struct Packet {
 impl Packet {
     /// The camera's rays through a point of each pixel; those not `wanted` are ignored.
     #[inline(always)]
-    pub fn set_out<I: Isa>(&mut self, camera: &CameraRays, number: usize, tile: (f64, f64), place: (f64, f64), wanted: u8) {
+    pub fn set_out<I: Isa>(
+        &mut self,
+        camera: &CameraRays,
+        number: usize,
+        tile: (f64, f64),
+        place: (f64, f64),
+        wanted: u8,
+    ) {
         let (column, row) = (number % ACROSS * PACKET_PX.0, number / ACROSS * PACKET_PX.1);
         let x = F64s::<I>::splat(tile.0 + column as f64) + F64s::load(&LANE_X) + F64s::splat(place.0);
         let y = F64s::<I>::splat(tile.1 + row as f64) + F64s::load(&LANE_Y) + F64s::splat(place.1);

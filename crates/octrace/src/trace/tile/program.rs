@@ -32,9 +32,7 @@ pub(super) fn is_plain(catalog: &Catalog, words: &[u32]) -> bool {
 #[inline(always)]
 pub(super) fn surface_of(catalog: &Catalog, word: u32) -> Option<&Surface> {
     match Word::decode(word) {
-        Word::Literal { index, .. } => {
-            Some(&catalog.surfaces[catalog.literals[index as usize].surface as usize])
-        }
+        Word::Literal { index, .. } => Some(&catalog.surfaces[catalog.literals[index as usize].surface as usize]),
         Word::And { .. } | Word::Or { .. } => None,
     }
 }

@@ -81,7 +81,8 @@ impl<I: Isa> Parts<I> {
         let (s_lanes, c0, two) = (F64s::splat(s), F64s::splat(c0), F64s::splat(2.0));
         let value = q.x * q.x + q.y * q.y + s_lanes * (q.z * q.z) + c0;
         let slope = Vector::new(two * q.x, two * q.y, two * s_lanes * q.z);
-        let along_slope = |v: Vec3| (slope.x * F64s::splat(v.x) + slope.y * F64s::splat(v.y) + slope.z * F64s::splat(v.z)).abs();
+        let along_slope =
+            |v: Vec3| (slope.x * F64s::splat(v.x) + slope.y * F64s::splat(v.y) + slope.z * F64s::splat(v.z)).abs();
         let extra = margin + rounding;
         let linear = (slope.x * along.x + slope.y * along.y + slope.z * along.z).abs()
             + along_slope(sides[0])
@@ -251,6 +252,5 @@ impl Pruned {
         .encode();
     }
 }
-
 
 const _: () = assert!(LANES == u8::BITS as usize);

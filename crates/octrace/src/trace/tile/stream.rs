@@ -8,8 +8,8 @@ use super::lanes::{Isa, LANES};
 use super::walk::{Lead, Own, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
 use crate::geom::Ray;
-use crate::trace::{Scratch, Tracer};
 use crate::trace::prepared::Prepared;
+use crate::trace::{Scratch, Tracer};
 
 /// A ray, and up to which parameter it is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,13 @@ const MOST: usize = PACKETS * LANES;
 impl Tracer {
     /// The first crossings of many rays with any body, in the order of the rays: each what
     /// [`first_body_hit`](Self::first_body_hit) says of it. Fastest for rays that are near their neighbours in the list.
-    pub fn first_hits(&self, rays: &[RayTo], backend: Backend, tile: &mut RayTile, scratch: &mut Scratch) -> Vec<TileHit> {
+    pub fn first_hits(
+        &self,
+        rays: &[RayTo],
+        backend: Backend,
+        tile: &mut RayTile,
+        scratch: &mut Scratch,
+    ) -> Vec<TileHit> {
         let mut hits = vec![None; rays.len()];
         self.first_hits_into(rays, backend, tile, scratch, &mut hits);
         hits

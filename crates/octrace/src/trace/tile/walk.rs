@@ -289,10 +289,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     #[inline(always)]
     fn nearest_octant(&self, center: Vec3) -> usize {
         let Beam { eye, forward, parallel, .. } = *self.beam;
-        let side = |eye: f64, forward: f64, center: f64| usize::from(if parallel { forward < 0.0 } else { eye > center });
-        side(eye.x, forward.x, center.x)
-            | side(eye.y, forward.y, center.y) << 1
-            | side(eye.z, forward.z, center.z) << 2
+        let side =
+            |eye: f64, forward: f64, center: f64| usize::from(if parallel { forward < 0.0 } else { eye > center });
+        side(eye.x, forward.x, center.x) | side(eye.y, forward.y, center.y) << 1 | side(eye.z, forward.z, center.z) << 2
     }
 
     /// A leaf, for those packets.
@@ -493,7 +492,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let words = match &self.scenery.program.outer {
             Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
             Constant::Everywhere(_) => return,
-            Constant::Words(words) => Some(&**words).filter(|words| is_short(words) && is_plain(self.scenery.catalog, words)),
+            Constant::Words(words) => {
+                Some(&**words).filter(|words| is_short(words) && is_plain(self.scenery.catalog, words))
+            }
         };
         let mut chunk = Chunk::default();
         for number in bits_of(self.open) {
