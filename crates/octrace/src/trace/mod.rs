@@ -18,5 +18,5 @@ pub use cells::OctreeCell;
 pub use options::{Accel, TracerOptions, UnknownAccel};
 pub use report::{RayReport, VisitedCell};
 pub use stats::{Counters, TracerStats};
-pub use tile::{Backend, RayTile, RayTo, TILE_PX, TileHit, Tiles};
+pub use tile::{Backend, Brightness, RayTile, RayTo, TILE_PX, TileHit, Tiles, Told};
 pub use tracer::{Scratch, SurfacePoint, Tracer};

@@ -2,7 +2,7 @@
 
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
 use crate::geom::{Affine, Ray, Vec3};
-use crate::surface::{Crossings, Plane, Quadric, QuadricKind};
+use crate::surface::{Crossings, Plane, Quadric, QuadricKind, Surface};
 
 /// Eight rays, from one origin or from eight.
 #[derive(Clone, Copy)]
@@ -87,6 +87,16 @@ impl<I: Isa> Crossed<I> {
         }
         (self.a, self.b) = (F64s::load(&a), F64s::load(&b));
         self.starts_inside = Mask::from_bits(starts_inside);
+    }
+}
+
+/// The crossings of eight rays with a plane or a quadric; of anything else, none.
+#[inline(always)]
+pub(super) fn crossed_by<I: Isa, N: Number<I>>(surface: &Surface, rays: &Rays<I, N>) -> Crossed<I> {
+    match surface {
+        Surface::Plane(surface) => plane(surface, rays),
+        Surface::Quadric(surface) => quadric(surface, rays),
+        Surface::Torus(_) | Surface::Mesh(_) => Crossed::nowhere(),
     }
 }
 

@@ -7,6 +7,7 @@
 mod beam;
 mod crossing;
 mod dispatch;
+mod lambert;
 mod lanes;
 mod packet;
 mod program;
@@ -15,6 +16,7 @@ mod stream;
 mod walk;
 
 pub use dispatch::Backend;
+pub use lambert::{Brightness, Told};
 pub use stream::RayTo;
 
 use super::prepared::Prepared;
@@ -22,7 +24,7 @@ use super::roots::hit_of;
 use super::{Scratch, Tracer};
 use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
-use crate::surface::{CellBox, Side};
+use crate::surface::{CellBox, Side, Surface};
 use beam::Beam;
 use dispatch::Task;
 use lanes::{Isa, LANES, Stored};
@@ -85,6 +87,8 @@ pub struct Tiles<'a> {
     camera: CameraRays,
     /// For each body, whether rays set out outside of it.
     start_outside: Vec<bool>,
+    /// Whether there are planes and quadrics only.
+    only_plain: bool,
     backend: Backend,
 }
 
@@ -110,7 +114,9 @@ impl Tracer {
             Side::Crossing => None,
         });
         let start_outside = start_outside.collect::<Option<_>>()?;
-        Some(Tiles { tracer: self, camera: *camera, start_outside, backend })
+        let is_plain = |surface: &Surface| matches!(surface, Surface::Plane(_) | Surface::Quadric(_));
+        let only_plain = self.catalog.surfaces.iter().all(is_plain);
+        Some(Tiles { tracer: self, camera: *camera, start_outside, only_plain, backend })
     }
 }
 

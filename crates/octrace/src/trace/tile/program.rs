@@ -3,7 +3,7 @@
 //! Functions for programs of one, two and three levels, one made of the other: recursion could not be compiled for wide
 //! registers as a whole. Deeper programs are for scalar code.
 
-use super::crossing::{Crossed, Rays, plane, quadric};
+use super::crossing::{Crossed, Rays, crossed_by, plane, quadric};
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored};
 use crate::compile::{Catalog, Word, node_end};
 use crate::surface::Surface;
@@ -70,12 +70,7 @@ pub(super) struct Changes<I: Isa> {
 #[inline(always)]
 pub(super) fn crossed<I: Isa, N: Number<I>>(catalog: &Catalog, word: u32, rays: &Rays<I, N>) -> Crossed<I> {
     let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
-    match surface_of(catalog, word) {
-        Some(Surface::Plane(surface)) => plane(surface, rays),
-        Some(Surface::Quadric(surface)) => quadric(surface, rays),
-        Some(Surface::Torus(_) | Surface::Mesh(_)) | None => Crossed::nowhere(),
-    }
-    .negated(negated)
+    surface_of(catalog, word).map_or(Crossed::nowhere(), |surface| crossed_by(surface, rays)).negated(negated)
 }
 
 /// So many packets are solved for one program before it is looked at what follows.
