@@ -57,6 +57,8 @@ pub struct Spreads {
     pub build_s: Spread,
     /// See [`Row::mrays_per_s`].
     pub mrays_per_s: Spread,
+    /// See [`Row::limit_mrays_per_s`].
+    pub limit_mrays_per_s: Option<Spread>,
     /// See [`Row::ratio_to_limit`].
     pub ratio_to_limit: Option<Spread>,
     /// See [`Row::speedup`].

@@ -12,6 +12,7 @@ use octrace::compile::compile;
 use octrace::exec::{Exec, Silent};
 use octrace::film::{Background, RenderStats, View, render};
 use octrace::model::default_lights;
+use octrace::trace::Told;
 use octrace::{Scene, Solid, Tracer, TracerOptions};
 use octrace_read::{ReadOptions, read_scene};
 use std::hint::black_box;
@@ -45,6 +46,8 @@ struct Times {
     compile: Vec<f64>,
     build: Vec<f64>,
     picture: Vec<f64>,
+    /// The picture if each pixel were told what it shows.
+    limit: Vec<f64>,
     /// One thread over several, by the wall's clock.
     speedup: Vec<f64>,
     shadowed: Vec<f64>,
@@ -116,6 +119,8 @@ struct Studio<'a> {
     exec: &'a Exec,
     picture: Picture<'a>,
     pixels: Vec<f32>,
+    /// What each pixel shows, if it can be told.
+    told: Option<Vec<Told>>,
     view: View,
     /// Camera and shadow rays of the scene lit once.
     shadowed_rays: u64,
@@ -140,6 +145,7 @@ impl<'a> Studio<'a> {
             session,
             exec,
             pixels: picture.pixels(),
+            told: picture.told(),
             picture,
             view: View { camera, width_px, height_px, samples: 1, max_bounces: MAX_BOUNCES, background },
             shadowed_rays: 0,
@@ -153,10 +159,14 @@ impl<'a> Studio<'a> {
         self.draw(self.plan.threads).map(|_| ())
     }
 
-    /// The plain picture, by one thread and by several.
+    /// The plain picture, by one thread and by several, and the limit.
     fn pictures(&mut self, times: &mut Times) -> Result<(), Failure> {
         let (one_cpu_s, one_wall_s) = self.draw(1)?;
         times.picture.push(one_cpu_s);
+        if let Some(told) = &self.told {
+            let (_, took) = timed(|| self.picture.draw_told(told, &mut self.pixels));
+            times.limit.push(took.cpu_s);
+        }
         if self.plan.threads > 1 {
             let (_, several_wall_s) = self.draw(self.plan.threads)?;
             times.speedup.push(one_wall_s / several_wall_s.max(f64::MIN_POSITIVE));
@@ -205,8 +215,8 @@ fn row(scene: &BenchScene, tracer: &Tracer, studio: &Studio<'_>, times: &Times, 
         compile_s: spread.compile_s.median,
         build_s: spread.build_s.median,
         mrays_per_s: spread.mrays_per_s.median,
-        limit_mrays_per_s: None,
-        ratio_to_limit: None,
+        limit_mrays_per_s: spread.limit_mrays_per_s.map(|spread| spread.median),
+        ratio_to_limit: spread.ratio_to_limit.map(|spread| spread.median),
         threads: plan.threads,
         speedup: spread.speedup.map(|spread| spread.median),
         shadowed_mrays_per_s: spread.shadowed_mrays_per_s.median,
@@ -228,7 +238,8 @@ fn spreads(times: &Times, pixels: u64, shadowed_rays: u64) -> Spreads {
         compile_s: seconds(&times.compile),
         build_s: seconds(&times.build),
         mrays_per_s: rates(&times.picture, pixels),
-        ratio_to_limit: None,
+        limit_mrays_per_s: (!times.limit.is_empty()).then(|| rates(&times.limit, pixels)),
+        ratio_to_limit: (!times.limit.is_empty()).then(|| Spread::of_ratios(&times.picture, &times.limit)),
         speedup: some(&times.speedup),
         shadowed_mrays_per_s: rates(&times.shadowed, shadowed_rays),
         frame_s: seconds(&times.frame),

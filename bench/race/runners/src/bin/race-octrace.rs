@@ -2,7 +2,7 @@
 
 use octrace::exec::Exec;
 use octrace::model::CameraRays;
-use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX, Tiles};
+use octrace::trace::{Backend, Brightness, RayTile, RayTo, Scratch, TILE_PX, Tiles};
 use octrace::{Hit, Light, Ray, Tracer, TracerOptions, Vec3};
 use octrace_race::{Clock, Command, Outcome, argument, serve, write_floats};
 use octrace_read::{ReadOptions, Source, read_scene};
@@ -27,18 +27,20 @@ fn main() -> Outcome {
     let rays = camera.rays(WIDTH as u32, HEIGHT as u32);
     let tiles = tracer.tiles(&rays, (WIDTH as u32, HEIGHT as u32), Backend::best());
     let tiles = tiles.ok_or("this scene is not traced in tiles")?;
-    let mut runner = Runner { tracer: &tracer, tiles, rays, light: *light, film: vec![[0.0; 4]; WIDTH * HEIGHT] };
+    let (film, shaded) = (vec![[0.0; 4]; WIDTH * HEIGHT], vec![0.0; WIDTH * HEIGHT]);
+    let sun = (*light - camera.at).normalized().unwrap_or(Vec3::Z);
+    let mut runner = Runner { tracer: &tracer, tiles, rays, light: *light, sun, film, shaded };
     serve(|command| {
         match command {
             Command::Frame => {
                 let clock = Clock::start();
-                runner.draw();
+                runner.shade();
                 clock.print(None);
             }
             Command::Shadow => {
                 runner.draw();
                 let clock = Clock::start();
-                let rays = runner.shade();
+                let rays = runner.cast_shadows();
                 clock.print(Some(rays));
             }
             Command::Dump(path) => {
@@ -57,11 +59,28 @@ struct Runner<'a> {
     tiles: Tiles<'a>,
     rays: CameraRays,
     light: Vec3,
+    /// Where light comes from, to the camera's target.
+    sun: Vec3,
     /// Distance, infinite where nothing is met, and unit normal.
     film: Vec<[f32; 4]>,
+    /// Lambert's cosine.
+    shaded: Vec<f32>,
 }
 
 impl Runner<'_> {
+    /// Traces the camera's rays, and stores Lambert's cosine: hit and normal, and a product more.
+    fn shade(&mut self) {
+        let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
+        let mut pixels = Brightness::default();
+        for (left, top) in corners() {
+            self.tiles.brightness((left as u32, top as u32), self.sun, &mut tile, &mut scratch, &mut pixels);
+            for (y, row) in pixels.0.chunks(TILE_PX).enumerate() {
+                let start = (top + y) * WIDTH + left;
+                self.shaded[start..start + TILE_PX].copy_from_slice(row);
+            }
+        }
+    }
+
     /// Traces the camera's rays, and stores distances and normals.
     fn draw(&mut self) {
         let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
@@ -77,7 +96,7 @@ impl Runner<'_> {
     }
 
     /// From every hit that faces the light a ray to it; returns how many.
-    fn shade(&self) -> u64 {
+    fn cast_shadows(&self) -> u64 {
         let (mut tile, mut scratch) = (RayTile::default(), Scratch::default());
         let (mut traced, mut lit) = (0, 0);
         let mut shadows: Vec<RayTo> = Vec::new();
