@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import multiprocessing
+import os
 import subprocess
 import time
 from collections.abc import Callable
@@ -279,12 +280,14 @@ def whole_frames(scene: Scene, folder: Path, programs: Programs) -> dict | None:
         pov_file.write_text(write.pov(scene))
     times: dict[str, list[float]] = {"octrace": [], "POV-Ray": []}
     rays = {}
+    # POV-Ray counts the camera's ray as the first level.
+    bounces = max(scene.max_bounces - 1, 0)
+    words = [programs.octrace, "render", folder / "scene.oct", "-o", ours, "--samples", "1", "--threads", "1"]
+    words += ["--max-bounces", str(bounces), "--stats", "json", "--quiet"]
     for _ in range(min(programs.repeat, 3)):
-        words = [programs.octrace, "render", folder / "scene.oct", "-o", ours, "--threads", "1", "--samples", "1"]
-        words += ["--max-bounces", str(scene.max_bounces), "--stats", "json", "--quiet"]
-        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True)
-        stats = json.loads(done.stdout)
-        times["octrace"].append(stats["seconds"]["render"])
+        stats, cpu_s = cpu_and_stats([str(word) for word in words])
+        # One thread: each stage has its share of the processor's time.
+        times["octrace"].append(cpu_s * stats["seconds"]["render"] / stats["seconds"]["total"])
         rays = stats["rays"]
         try:
             took, _ = povray.draw(pov_file, theirs, povray.EVERYTHING, programs.patience_s)
@@ -300,3 +303,14 @@ def whole_frames(scene: Scene, folder: Path, programs: Programs) -> dict | None:
         "octrace_rays": rays,
         "difference": compare.colors(ours, theirs).as_dict(),
     }
+
+
+def cpu_and_stats(command: list[str]) -> tuple[dict, float]:
+    """What `octrace render --stats json` prints, and the seconds of processor time that it took."""
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        text = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise RuntimeError(f"octrace ended: {process.returncode}")
+    return json.loads(text), usage.ru_utime + usage.ru_stime
