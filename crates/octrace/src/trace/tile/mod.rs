@@ -30,7 +30,7 @@ use dispatch::Task;
 use lanes::{Isa, LANES, Stored};
 use packet::Packet;
 use program::Solved;
-use walk::{Common, Lead, Own, Scenery, Waiting, walk};
+use walk::{Common, Lead, MAX_CUTS, Own, Scenery, Slab, Slabs, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
@@ -60,6 +60,7 @@ pub struct RayTile {
     from_eye: bool,
     waiting: [Waiting; Waiting::MOST],
     solved: Solved,
+    slabs: Slabs,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
     /// Rays of a stream, sorted by the signs of their directions.
@@ -74,6 +75,7 @@ impl Default for RayTile {
             from_eye: false,
             waiting: [Waiting::NOTHING; Waiting::MOST],
             solved: Solved::default(),
+            slabs: [Slab::NOTHING; MAX_CUTS + 1],
             alone: Vec::new(),
             by_signs: Default::default(),
         }
