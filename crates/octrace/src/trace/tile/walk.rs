@@ -26,6 +26,16 @@ pub(super) struct Scenery<'a> {
     pub wanted: bool,
     /// The body's number.
     pub body: u32,
+    /// Whether all surfaces are planes and quadrics.
+    pub only_plain: bool,
+}
+
+impl Scenery<'_> {
+    /// Whether all surfaces of a program can be crossed in lanes.
+    #[inline(always)]
+    fn is_plain(&self, words: &[u32]) -> bool {
+        self.only_plain || is_plain(self.catalog, words)
+    }
 }
 
 /// A cell that waits for its turn.
@@ -117,7 +127,7 @@ pub(super) enum Lead {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, waiting, solved, slabs, .. } = tile;
+    let RayTile { packets, beam, waiting, solved, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
@@ -126,6 +136,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &
         open: 0,
         solved,
         slabs,
+        chunk,
         known: Known::nothing(),
         machine: PhantomData,
     };
@@ -152,6 +163,7 @@ struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     open: u32,
     solved: &'b mut Solved,
     slabs: &'b mut Slabs,
+    chunk: &'b mut Option<Box<Chunk>>,
     known: Known,
     machine: PhantomData<(I, O)>,
 }
@@ -359,7 +371,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Evaluates a leaf's program for those packets.
     fn evaluate(&mut self, words: &[u32], packets: u32, cube: Cube, depths: (f64, f64)) {
         match *words {
-            _ if !is_plain(self.scenery.catalog, words) => {
+            _ if !self.scenery.is_plain(words) => {
                 I::call(OneByOne { walk: self, words, packets, cube, depths });
             }
             [word] => I::call(Single { walk: self, word, packets, cube, depths }),
@@ -504,11 +516,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let words = match &self.scenery.program.outer {
             Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
             Constant::Everywhere(_) => return,
-            Constant::Words(words) => {
-                Some(&**words).filter(|words| is_short(words) && is_plain(self.scenery.catalog, words))
-            }
+            Constant::Words(words) => Some(&**words).filter(|words| is_short(words) && self.scenery.is_plain(words)),
         };
-        let mut chunk = Chunk::default();
+        let mut chunk = self.chunk.take().unwrap_or_default();
+        chunk.count = 0;
         for number in bits_of(self.open) {
             let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
             let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
@@ -528,13 +539,14 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         if let Some(words) = words.filter(|_| chunk.count > 0) {
             I::call(Outer { walk: self, words, chunk: &chunk });
         }
+        *self.chunk = Some(chunk);
         self.count_open();
     }
 }
 
 /// Some packets' stretches.
-#[derive(Default)]
-struct Chunk {
+#[derive(Debug, Default)]
+pub(super) struct Chunk {
     count: usize,
     numbers: [u8; CHUNK],
     /// The rays that it is about.
@@ -587,7 +599,8 @@ struct Several<'a, 'b, 'c, I: Isa, O: Origins<I>> {
 impl<I: Isa, O: Origins<I>> Kernel for Several<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
-        let mut chunk = Chunk::default();
+        let mut chunk = self.walk.chunk.take().unwrap_or_default();
+        chunk.count = 0;
         for number in bits_of(self.packets) {
             let (here, stretch) = self.walk.crossing(number, self.cube, self.depths);
             if here.any() {
@@ -601,6 +614,7 @@ impl<I: Isa, O: Origins<I>> Kernel for Several<'_, '_, '_, I, O> {
         if chunk.count > 0 {
             self.walk.program(self.words, &chunk);
         }
+        *self.walk.chunk = Some(chunk);
     }
 }
 
