@@ -70,7 +70,12 @@ pub(super) struct Changes<I: Isa> {
 #[inline(always)]
 pub(super) fn crossed<I: Isa, N: Number<I>>(catalog: &Catalog, word: u32, rays: &Rays<I, N>) -> Crossed<I> {
     let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
-    surface_of(catalog, word).map_or(Crossed::nowhere(), |surface| crossed_by(surface, rays)).negated(negated)
+    // Not a closure: those may be compiled by themselves, for registers that are not wide.
+    let crossed = match surface_of(catalog, word) {
+        Some(surface) => crossed_by(surface, rays),
+        None => Crossed::nowhere(),
+    };
+    crossed.negated(negated)
 }
 
 /// So many packets are solved for one program before it is looked at what follows.
