@@ -34,7 +34,13 @@ const PERSPECTIVE: Projection = Projection::Perspective { fov_deg: Camera::OPENS
 impl Framing {
     /// The camera for a picture of what `tracer` traces, of `size_px`, from a file that names the camera `in_file`.
     pub fn camera_for(&self, tracer: &Tracer, in_file: Option<Camera>, size_px: (u32, u32)) -> Camera {
-        let bounds = if self.view_all { occupied_bounds_closely(tracer) } else { occupied_bounds(tracer) };
+        // A camera that stands as the file says need not know where things are.
+        let stands = in_file.is_some() && self.viewpoint.is_none() && !self.auto_center && !self.view_all;
+        let bounds = match (stands, self.view_all) {
+            (true, _) => Bounds::EMPTY,
+            (false, true) => occupied_bounds_closely(tracer),
+            (false, false) => occupied_bounds(tracer),
+        };
         self.camera(in_file, &bounds, size_px)
     }
 

@@ -5,7 +5,7 @@ use crate::diagnostics;
 use crate::failure::Failure;
 use crate::session::Session;
 use octrace_read::scad::{self, ScadError};
-use octrace_read::{Diagnostic, Loaded, ReadOptions, Source, read_scene};
+use octrace_read::{Diagnostic, Loaded, Source, read_scene};
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -62,14 +62,8 @@ pub fn open(file: &Path, args: &ReadArgs, session: &Session) -> Result<Input, Fa
         Language::Scad => evaluate(file, args, session)?,
     };
     let program = matches!(language, Language::Scad).then(|| file.to_owned());
-    let options = ReadOptions {
-        facets: args.facets,
-        skip_unsupported: args.skip_unsupported,
-        snap: args.snap,
-        ..ReadOptions::default()
-    };
     let _busy = session.busy("reading");
-    let checked = read_scene(&source, &options);
+    let checked = read_scene(&source, &args.options());
     Ok(Input { source, diagnostics: checked.diagnostics, loaded: checked.value, program })
 }
 

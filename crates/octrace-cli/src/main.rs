@@ -1,6 +1,7 @@
 //! The `octrace` command: arguments in, one of the commands run, an exit code out.
 
 mod args;
+mod bench;
 mod commands;
 mod diagnostics;
 mod failure;
@@ -13,6 +14,7 @@ mod picture;
 mod progress;
 mod rounding;
 mod session;
+mod statistics;
 mod stats;
 mod study;
 mod tree;

@@ -15,6 +15,7 @@ fn help_of_every_command() {
         ("inspect", &["inspect", "--help"]),
         ("figures", &["figures", "--help"]),
         ("study", &["study", "--help"]),
+        ("bench", &["bench", "--help"]),
     ] {
         let run = folder.run(words).expect(0);
         insta::with_settings!({ omit_expression => true }, {

@@ -1,7 +1,7 @@
 //! The solids that are made to measure with.
 
 use octrace::exec::Exec;
-use octrace::model::families::{balls, chain, classic, copies};
+use octrace::model::families::{balls, chain, classic, copies, grid, menger, plate, swiss};
 use octrace::trace::TracerStats;
 use octrace::{Solid, Tracer, TracerOptions};
 
@@ -20,6 +20,15 @@ fn they_have_as_many_primitives_as_they_say() {
         (copies(7), 35),
         (chain(0), 1),
         (chain(16), 17),
+        (plate(1), 8),
+        (plate(20), 806),
+        (menger(0), 1),
+        (menger(3), 220),
+        (menger(4), 1_756),
+        (swiss(0), 1),
+        (swiss(100), 101),
+        (grid([0, 1, 1]), 0),
+        (grid([5, 5, 4]), 500),
     ] {
         assert_eq!(stats(&solid).primitives, expected);
     }

@@ -1,9 +1,11 @@
 //! The arguments of every command: what clap makes of the command line. Single values are checked here (by the parsers
 //! in `values`), so that the commands meet nothing but plain, sound data.
 
+mod bench;
 mod figures;
 mod study;
 
+pub use bench::BenchArgs;
 pub use figures::FiguresArgs;
 pub use study::StudyArgs;
 
@@ -18,7 +20,7 @@ use octrace::film::Background;
 use octrace::octree::BuildOptions;
 use octrace::trace::{Accel, TracerOptions};
 use octrace::traverse::TraversalKind;
-use octrace_read::Facets;
+use octrace_read::{Facets, ReadOptions};
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -103,6 +105,9 @@ pub enum Command {
     /// Measure the ways to walk an octree side by side, and find the settings that suit a model
     #[command(after_help = study::EXAMPLES)]
     Study(StudyArgs),
+    /// Measure how fast this machine traces, next to what it could do at best
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(BenchArgs),
 }
 
 /// How files are read.
@@ -305,6 +310,18 @@ impl ViewArgs {
     /// The picture's size in pixels.
     pub fn size_px(&self) -> (u32, u32) {
         (self.size.width_px, self.size.height_px)
+    }
+}
+
+impl ReadArgs {
+    /// The reader's options.
+    pub fn options(&self) -> ReadOptions {
+        ReadOptions {
+            facets: self.facets,
+            skip_unsupported: self.skip_unsupported,
+            snap: self.snap,
+            ..ReadOptions::default()
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod bench;
 mod check;
 mod figures;
 mod inspect;
@@ -7,7 +8,7 @@ mod measure;
 mod render;
 mod study;
 
-use crate::args::{CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs, StudyArgs};
+use crate::args::{BenchArgs, CheckArgs, Command, FiguresArgs, InspectArgs, MeasureArgs, RenderArgs, StudyArgs};
 use crate::diagnostics::Show;
 use crate::failure::Failure;
 use crate::output::say_error;
@@ -20,7 +21,8 @@ pub fn run(command: &Command) -> u8 {
     | Command::Measure(MeasureArgs { quiet, .. })
     | Command::Inspect(InspectArgs { quiet, .. })
     | Command::Figures(FiguresArgs { quiet, .. })
-    | Command::Study(StudyArgs { quiet, .. })) = command;
+    | Command::Study(StudyArgs { quiet, .. })
+    | Command::Bench(BenchArgs { quiet, .. })) = command;
     let session = Session::start(if *quiet { Show::Errors } else { Show::All });
     let result = match command {
         Command::Render(args) => render::run(args, &session),
@@ -29,6 +31,7 @@ pub fn run(command: &Command) -> u8 {
         Command::Inspect(args) => inspect::run(args, &session),
         Command::Figures(args) => figures::run(args, &session),
         Command::Study(args) => study::run(args, &session),
+        Command::Bench(args) => bench::run(args, &session),
     };
     let Err(failure) = result else { return 0 };
     match failure {

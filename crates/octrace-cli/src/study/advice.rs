@@ -8,8 +8,8 @@ use super::plan::{Config, Depth};
 use super::results::{Advice, Figures};
 use super::rounds::duel;
 use super::scenes::StudyScene;
-use super::statistics::Spread;
 use crate::failure::Failure;
+use crate::statistics::Spread;
 use octrace::Ray;
 use std::fmt::Write;
 

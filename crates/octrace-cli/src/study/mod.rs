@@ -1,7 +1,7 @@
 //! `octrace study`: the traversals of the paper, measured side by side.
 //!
 //! Scenes (`scenes`) and settings (`plan`) go in; each scene is surveyed, checked against the canonical tracer and timed
-//! (`measure`, with the rays of `rays` and the numbers of `statistics`), the memory of trees and grids is weighed
+//! (`measure`, with the rays of `rays` and the numbers of `crate::statistics`), the memory of trees and grids is weighed
 //! (`memory`), settings are recommended (`advice`); out comes plain data (`results`), which `report` turns into a page.
 
 mod advice;
@@ -15,7 +15,6 @@ mod report;
 mod results;
 mod rounds;
 mod scenes;
-mod statistics;
 mod survey;
 mod walk;
 

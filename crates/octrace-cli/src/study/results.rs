@@ -2,7 +2,7 @@
 //! keys.
 
 use super::machine::Machine;
-use super::statistics::Spread;
+use crate::statistics::Spread;
 use octrace::octree::OctreeStats;
 use serde::Serialize;
 

@@ -2,10 +2,10 @@
 
 use super::format::{number, range, whole};
 use super::look_up::{best_fixed_depth, by_cost, steps_of_both, traversals, values_of_p, with_traversal};
+use crate::statistics::Spread;
 use crate::study::plan::Config;
 use crate::study::results::{Advice, SceneReport, Study};
 use crate::study::scenes::Family;
-use crate::study::statistics::Spread;
 use maud::{Markup, html};
 
 /// The findings, as a list.

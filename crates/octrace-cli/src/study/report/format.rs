@@ -1,6 +1,6 @@
 //! Numbers for people.
 
-use crate::study::statistics::Spread;
+use crate::statistics::Spread;
 use maud::{Markup, html};
 
 /// Three digits that count, or the whole number where it has more: `0.0123`, `4.56`, `12,300`.

@@ -1,6 +1,11 @@
 //! Families of solids that grow without end, to measure with: what does it cost to have ten times as many primitives,
 //! or a tree twice as deep? The same on every machine.
 
+mod bench;
+mod mersenne;
+
+pub use bench::{grid, menger, plate, swiss};
+
 use super::Solid;
 use crate::geom::{Vec3, sin_cos_deg};
 
