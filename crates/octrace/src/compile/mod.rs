@@ -7,6 +7,7 @@ mod lower;
 mod place;
 mod repeats;
 mod simplify;
+mod split;
 mod text;
 mod words;
 
@@ -15,6 +16,7 @@ pub use intern::CompileReport;
 pub use lower::{Compiled, compile};
 pub use repeats::without_repeats;
 pub use simplify::{Simplified, Simplifier};
+pub use split::{Entry, Split, Splitter};
 pub use text::program_text;
 pub use words::{Word, nesting, node_end};
 

@@ -2,10 +2,10 @@
 
 use super::subtree::Subtree;
 use super::{CellWord, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, without_repeats};
+use crate::compile::{Catalog, Constant, Entry, Program, Split, Splitter, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
-use crate::surface::CellBox;
+use crate::surface::Octants;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -72,6 +72,16 @@ pub fn build(
     };
 
     exec.progress.begin("building the octree", PROGRESS_STEPS);
+    let mut splitter = Splitter::default();
+    let words = without_repeats(catalog, words);
+    let mut entries: Vec<Entry> = words.iter().map(|&word| Entry::new(catalog, word)).collect();
+    let whole = 0..entries.len();
+    let split = splitter.split(catalog, &mut entries, whole, &Octants::all(&octree.grown(center, half)), 1);
+    let reduced = &entries[split.ranges[0].clone()];
+    let budget = match options.depth {
+        Some(_) => u64::MAX,
+        None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
+    };
     let builder = Builder {
         catalog,
         octree: &octree,
@@ -80,26 +90,18 @@ pub fn build(
         by_cost: options.depth.is_none(),
         exec,
     };
-    let mut simplifier = Simplifier::default();
-    let mut reduced = Vec::new();
-    let words = without_repeats(catalog, words);
-    let result = match simplifier.simplify(catalog, &words, &octree.grown(center, half), &mut reduced) {
-        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-        Simplified::Reduced => {
-            let budget = match options.depth {
-                Some(_) => u64::MAX,
-                None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
-            };
-            builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
-        }
+    let result = match (split.inside, split.outside) {
+        (0, 0) => builder.top_cell(reduced, Place { center, half, level: 0 }, budget),
+        (inside, _) => Ok(Part::constant(inside != 0)),
     };
     exec.progress.end();
-    let tree = result?;
-    octree.root = tree.root;
+    let part = result?;
+    let mut tree = Subtree::default();
+    octree.surfaces_classified = splitter.classified + part.classified;
+    octree.root = part.assemble(&mut tree);
     octree.branches = tree.branches;
     octree.programs = tree.programs;
     octree.depth = tree.depth;
-    octree.surfaces_classified = tree.classified + simplifier.classified;
     Ok(Some(octree))
 }
 
@@ -120,8 +122,8 @@ const MOST_WORDS_READ_AT_LEAST: u64 = 1 << 18;
 /// Progress is counted in cells of this level.
 const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
-/// Cells above this level are built in parallel, each child for itself.
-const PARALLEL_LEVELS: u32 = 3;
+/// Children of cells with so many words are built in parallel.
+const PARALLEL_WORDS: usize = 256;
 
 /// Where a cell is.
 #[derive(Clone, Copy)]
@@ -139,8 +141,8 @@ impl Place {
 }
 
 /// How many words are read to cut a cell.
-fn cost_of_cutting(words: &[u32]) -> u64 {
-    8 * words.len() as u64
+fn cost_of_cutting(words: usize) -> u64 {
+    8 * words as u64
 }
 
 /// The part of a budget for a child with so many words of all.
@@ -160,119 +162,69 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Builds a cell near the root: its children in parallel.
-    fn top_cell(&self, words: &[u32], place: Place, budget: u64) -> Result<Subtree, Cancelled> {
-        self.exec.cancel.check()?;
-        if self.is_leaf(words, place.level, budget) {
-            self.advance(place.level);
-            return Ok(Subtree::leaf(words, place.level));
-        }
-        let mut tree = Subtree::constant(false);
-        if place.level >= PARALLEL_LEVELS {
-            let mut simplifier = Simplifier::default();
-            let mut stack = words.to_vec();
-            let end = stack.len();
-            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, 0..end, place, budget)?;
-            tree.classified = simplifier.classified;
-            return Ok(tree);
-        }
-        let simplified: Vec<(Simplified, Vec<u32>, u64)> = (0..8)
+    /// Builds a cell with a long program: its children in parallel.
+    fn top_cell(&self, program: &[Entry], place: Place, budget: u64) -> Result<Part, Cancelled> {
+        let mut splitter = Splitter::default();
+        let mut stack = program.to_vec();
+        let program = 0..stack.len();
+        let large = program.len() >= PARALLEL_WORDS && !self.is_leaf(&stack, place.level, budget);
+        let cut = if large { self.cut(&mut splitter, &mut stack, program.clone(), place)? } else { None };
+        let Some((split, all)) = cut else {
+            let mut tree = Subtree::default();
+            let root = self.cell(&mut tree, &mut splitter, &mut stack, program, place, budget)?;
+            return Ok(Part { cells: Cells::Tree(tree, root), classified: splitter.classified });
+        };
+        let left = budget - cost_of_cutting(program.len());
+        let children: Vec<Result<Part, Cancelled>> = (0..8)
             .into_par_iter()
-            .map(|octant| {
-                let mut reduced = Vec::new();
-                let mut simplifier = Simplifier::default();
-                let cell = self.grown(place.child(octant));
-                let simplified = simplifier.simplify(self.catalog, words, &cell, &mut reduced);
-                (simplified, reduced, simplifier.classified)
+            .map(|octant| match split.constant(octant) {
+                Some(inside) => {
+                    self.advance(place.level + 1);
+                    Ok(Part::constant(inside))
+                }
+                None => {
+                    let program = &stack[split.ranges[octant].clone()];
+                    self.top_cell(program, place.child(octant), share(left, program.len(), all))
+                }
             })
             .collect();
-        let lengths: Vec<usize> = simplified.iter().map(|(_, reduced, _)| reduced.len()).collect();
-        if !self.pays(words.len(), lengths.iter().copied()) {
-            let mut tree = Subtree::leaf(words, place.level);
-            tree.classified = simplified.iter().map(|(_, _, classified)| classified).sum();
-            self.advance(place.level);
-            return Ok(tree);
-        }
-        let left = budget - cost_of_cutting(words);
-        let all: usize = lengths.iter().sum();
-        let children: Vec<Result<Subtree, Cancelled>> = simplified
-            .into_par_iter()
-            .enumerate()
-            .map(|(octant, (simplified, reduced, classified))| {
-                let mut child = match simplified {
-                    Simplified::Constant(inside) => {
-                        self.advance(place.level + 1);
-                        Subtree::constant(inside)
-                    }
-                    Simplified::Reduced => {
-                        self.top_cell(&reduced, place.child(octant), share(left, reduced.len(), all))?
-                    }
-                };
-                child.classified += classified;
-                Ok(child)
-            })
-            .collect();
-        let index = tree.branches.len();
-        tree.branches.push([CellWord::OUTSIDE; 8]);
-        for (octant, child) in children.into_iter().enumerate() {
-            let word = tree.adopt(child?);
-            tree.branches[index][octant] = word;
-        }
-        tree.root = tree.join(index);
-        Ok(tree)
+        let children = children.into_iter().collect::<Result<Vec<Part>, Cancelled>>()?;
+        let classified = splitter.classified + children.iter().map(|child| child.classified).sum::<u64>();
+        Ok(Part { cells: Cells::Branch(children), classified })
     }
 
     /// Builds a cell whose program is the range `program` of `stack`; leaves the stack as it was.
     fn cell(
         &self,
         tree: &mut Subtree,
-        simplifier: &mut Simplifier,
-        stack: &mut Vec<u32>,
+        splitter: &mut Splitter,
+        stack: &mut Vec<Entry>,
         program: Range<usize>,
         place: Place,
         budget: u64,
     ) -> Result<CellWord, Cancelled> {
-        let words = &stack[program.clone()];
-        if self.is_leaf(words, place.level, budget) {
-            tree.depth = tree.depth.max(place.level);
-            self.advance(place.level);
-            return Ok(tree.intern(words));
-        }
-        self.exec.cancel.check()?;
-        let left = budget - cost_of_cutting(words);
+        let leaf = self.is_leaf(&stack[program.clone()], place.level, budget);
         let bottom = stack.len();
-        let mut reduced = Vec::new();
-        let mut children = [CellWord::OUTSIDE; 8];
-        let mut ranges: [Range<usize>; 8] = Default::default();
-        for (octant, range) in ranges.iter_mut().enumerate() {
-            reduced.clear();
-            let cell = self.grown(place.child(octant));
-            match simplifier.simplify(self.catalog, &stack[program.clone()], &cell, &mut reduced) {
-                Simplified::Constant(inside) => {
-                    children[octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
-                }
-                Simplified::Reduced => {
-                    *range = stack.len()..stack.len() + reduced.len();
-                    stack.extend_from_slice(&reduced);
-                }
-            }
-        }
-        if !self.pays(program.len(), ranges.iter().map(Range::len)) {
-            stack.truncate(bottom);
-            tree.depth = tree.depth.max(place.level);
+        let cut = if leaf { None } else { self.cut(splitter, stack, program.clone(), place)? };
+        let Some((split, all)) = cut else {
             self.advance(place.level);
-            return Ok(tree.intern(&stack[program]));
-        }
-        let all = stack.len() - bottom;
+            return Ok(tree.leaf(&stack[program], place.level));
+        };
+        let left = budget - cost_of_cutting(program.len());
         let index = tree.branches.len();
-        tree.branches.push(children);
-        for (octant, range) in ranges.into_iter().enumerate() {
-            if range.is_empty() {
-                self.advance(place.level + 1);
-                continue;
-            }
-            let budget = share(left, range.len(), all);
-            let word = self.cell(tree, simplifier, stack, range, place.child(octant), budget)?;
+        tree.branches.push([CellWord::OUTSIDE; 8]);
+        for octant in 0..8 {
+            let word = match split.constant(octant) {
+                Some(inside) => {
+                    self.advance(place.level + 1);
+                    if inside { CellWord::INSIDE } else { CellWord::OUTSIDE }
+                }
+                None => {
+                    let program = split.ranges[octant].clone();
+                    let budget = share(left, program.len(), all);
+                    self.cell(tree, splitter, stack, program, place.child(octant), budget)?
+                }
+            };
             tree.branches[index][octant] = word;
         }
         stack.truncate(bottom);
@@ -282,9 +234,25 @@ impl Builder<'_> {
         Ok(tree.join(index))
     }
 
-    /// The cell's box with its margin.
-    fn grown(&self, place: Place) -> CellBox {
-        self.octree.grown(place.center, place.half)
+    /// The programs of a cell's children, on top of the stack, and how many words they have together. `None`, and the stack
+    /// as it was, where it does not pay to cut the cell.
+    fn cut(
+        &self,
+        splitter: &mut Splitter,
+        stack: &mut Vec<Entry>,
+        program: Range<usize>,
+        place: Place,
+    ) -> Result<Option<(Split, usize)>, Cancelled> {
+        self.exec.cancel.check()?;
+        let (bottom, words) = (stack.len(), program.len());
+        let octants = Octants::new(place.center, place.half / 2.0, self.octree.margin);
+        let split = splitter.split(self.catalog, stack, program, &octants, u8::MAX);
+        if self.pays(words, split.ranges.iter().map(Range::len)) {
+            let all = split.ranges.iter().map(Range::len).sum();
+            return Ok(Some((split, all)));
+        }
+        stack.truncate(bottom);
+        Ok(None)
     }
 
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.
@@ -294,8 +262,8 @@ impl Builder<'_> {
         }
     }
 
-    fn is_leaf(&self, words: &[u32], level: u32, budget: u64) -> bool {
-        level >= self.depth || cost_of_cutting(words) > budget || self.surfaces_at_most(words)
+    fn is_leaf(&self, program: &[Entry], level: u32, budget: u64) -> bool {
+        level >= self.depth || cost_of_cutting(program.len()) > budget || self.surfaces_at_most(program)
     }
 
     /// Whether rays are expected to be faster in the children, whose programs have those lengths (0 where a child is all
@@ -315,21 +283,55 @@ impl Builder<'_> {
     }
 
     /// Whether a program has no more different surfaces than a leaf may.
-    fn surfaces_at_most(&self, words: &[u32]) -> bool {
+    fn surfaces_at_most(&self, program: &[Entry]) -> bool {
         let mut seen = [0; BuildOptions::MAX_LEAF_SURFACES];
         let mut count = 0;
-        for &word in words {
-            if let Word::Literal { index, .. } = Word::decode(word) {
-                let surface = self.catalog.literals[index as usize].surface;
-                if !seen[..count].contains(&surface) {
-                    if count == self.leaf_surfaces.min(seen.len()) {
-                        return false;
-                    }
-                    seen[count] = surface;
-                    count += 1;
+        for entry in program.iter().filter(|entry| entry.is_literal()) {
+            if !seen[..count].contains(&entry.surface) {
+                if count == self.leaf_surfaces.min(seen.len()) {
+                    return false;
                 }
+                seen[count] = entry.surface;
+                count += 1;
             }
         }
         true
+    }
+}
+
+/// A part of the tree, and how often a surface was classified to build it.
+struct Part {
+    cells: Cells,
+    classified: u64,
+}
+
+enum Cells {
+    /// With its root.
+    Tree(Subtree, CellWord),
+    /// The eight parts of a branch.
+    Branch(Vec<Part>),
+}
+
+impl Part {
+    /// A part of one cell, all inside or all outside.
+    fn constant(inside: bool) -> Self {
+        let root = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
+        Self { cells: Cells::Tree(Subtree::default(), root), classified: 0 }
+    }
+
+    /// Moves everything into one tree; returns the root.
+    fn assemble(self, tree: &mut Subtree) -> CellWord {
+        match self.cells {
+            Cells::Tree(part, root) => tree.adopt(part, root),
+            Cells::Branch(children) => {
+                let index = tree.branches.len();
+                tree.branches.push([CellWord::OUTSIDE; 8]);
+                for (octant, child) in children.into_iter().enumerate() {
+                    let word = child.assemble(tree);
+                    tree.branches[index][octant] = word;
+                }
+                tree.join(index)
+            }
+        }
     }
 }
