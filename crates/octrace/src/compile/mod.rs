@@ -1,6 +1,6 @@
 //! From the CSG tree to a program: what is evaluated along rays and simplified in cells.
 
-mod expr;
+mod draft;
 mod face;
 mod intern;
 mod lower;
@@ -11,7 +11,7 @@ mod split;
 mod text;
 mod words;
 
-pub(crate) use expr::Op;
+pub(crate) use draft::Op;
 pub use intern::CompileReport;
 pub use lower::{Compiled, compile};
 pub use repeats::without_repeats;
