@@ -211,10 +211,10 @@ impl<'a> Interner<'a> {
         place.for_each_bin(self.bin_width(), self.place_tolerance, |bin| {
             let mut next = self.bins.get(&bin).copied();
             while let Some(surface) = next {
-                if best.is_none_or(|(best, _)| surface < best) {
-                    if let Some(moved) = matching(surface) {
-                        best = Some((surface, moved));
-                    }
+                if best.is_none_or(|(best, _)| surface < best)
+                    && let Some(moved) = matching(surface)
+                {
+                    best = Some((surface, moved));
                 }
                 next = self.older[surface as usize];
             }

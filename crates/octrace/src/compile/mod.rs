@@ -3,6 +3,8 @@
 mod draft;
 mod face;
 mod intern;
+mod items;
+mod known;
 mod lower;
 mod place;
 mod repeats;
@@ -13,10 +15,11 @@ mod words;
 
 pub(crate) use draft::Op;
 pub use intern::CompileReport;
+pub use items::{Items, Lattice, LatticeCell};
 pub use lower::{Compiled, compile};
 pub use repeats::without_repeats;
 pub use simplify::{Simplified, Simplifier};
-pub use split::{Entry, Split, Splitter};
+pub use split::{Boxes, Entry, Split, Splitter};
 pub use text::program_text;
 pub use words::{Word, nesting, node_end};
 

@@ -16,26 +16,33 @@ impl Place {
     /// The bin of width `width` that this place is in.
     pub fn own_bin(&self, width: f64) -> u64 {
         let [x, y, z] = self.at;
-        self.bin([x, y, z, self.extra].map(|v| floor(v / width)))
+        self.bin([x, y, z, self.extra].map(|v| place_in_row(v, width)))
     }
 
     /// Calls `visit` with the bins of width `width` in which a surface within `reach` of this place may be.
     pub fn for_each_bin(&self, width: f64, reach: f64, mut visit: impl FnMut(u64)) {
-        let bin = |v: f64| floor(v / width);
-        let places = [self.at[0], self.at[1], self.at[2], self.extra];
+        let [x, y, z] = self.at;
+        let places = [x, y, z, self.extra];
+        let bin = |v: f64| place_in_row(v, width);
         let here = places.map(bin);
-        // The other bin along each of the four coordinates, where one is near enough.
-        let other: [Option<i64>; 4] = std::array::from_fn(|i| {
-            let (low, high) = (bin(places[i] - reach), bin(places[i] + reach));
-            (low != high).then(|| if here[i] == low { high } else { low })
-        });
-        for choice in 0..16_usize {
-            if (0..4).all(|i| choice >> i & 1 == 0 || other[i].is_some()) {
-                visit(self.bin(std::array::from_fn(|i| match other[i] {
-                    Some(other) if choice >> i & 1 == 1 => other,
-                    _ => here[i],
-                })));
+        // The other bin along each coordinate that is near enough to one.
+        let mut others = [(0, 0); 4];
+        let mut count = 0;
+        for (i, &v) in places.iter().enumerate() {
+            let (low, high) = (bin(v - reach), bin(v + reach));
+            if low != high {
+                others[count] = (i, if here[i] == low { high } else { low });
+                count += 1;
             }
+        }
+        for choice in 0..1_usize << count {
+            let mut bins = here;
+            for (i, &(axis, other)) in others[..count].iter().enumerate() {
+                if choice >> i & 1 == 1 {
+                    bins[axis] = other;
+                }
+            }
+            visit(self.bin(bins));
         }
     }
 
@@ -50,9 +57,12 @@ impl Place {
     }
 }
 
-/// The greatest integer up to `v`. (The standard library's is a function call where nothing is known of the processor.)
+/// Which bin of a row a coordinate is in. Round numbers, such as zero, are kept off the borders of bins.
 #[inline]
-fn floor(v: f64) -> i64 {
+fn place_in_row(v: f64, width: f64) -> i64 {
+    const SHIFT: f64 = 0.37;
+    let v = v / width + SHIFT;
+    // The greatest integer up to `v`; the standard library's `floor` is a function call on processors of any kind.
     let truncated = v as i64;
-    truncated - i64::from((truncated as f64) > v)
+    truncated.saturating_sub(i64::from((truncated as f64) > v))
 }

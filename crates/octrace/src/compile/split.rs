@@ -10,7 +10,8 @@
 //! sets. One pass over the program judges every node, a second one writes what is kept of it, for each box to a place of its
 //! own. Neither recurses, and both take time in proportion to the length of the program.
 
-use super::{Catalog, Word};
+use super::known::Known;
+use super::{Catalog, Items, LatticeCell, Word};
 use crate::surface::{OctantSides, Octants};
 use std::ops::Range;
 
@@ -33,7 +34,29 @@ impl Entry {
         Self { word, surface }
     }
 
-    /// Whether it is a literal.
+    /// An entry for a whole operand of a program: see [`Items`].
+    pub(super) fn item(node: usize, outside: bool) -> Self {
+        Self { word: Word::Literal { index: node as u32, negated: outside }.encode(), surface: Self::ITEM }
+    }
+
+    /// In place of a surface.
+    const ITEM: u32 = u32::MAX;
+
+    /// Whether it stands for a whole operand.
+    #[inline]
+    pub fn is_item(self) -> bool {
+        self.surface == Self::ITEM
+    }
+
+    /// Where the operand starts for which an item stands.
+    pub(super) fn node(self) -> usize {
+        match Word::decode(self.word) {
+            Word::Literal { index, .. } => index as usize,
+            Word::And { .. } | Word::Or { .. } => 0,
+        }
+    }
+
+    /// Whether it is a literal or an item.
     #[inline]
     pub fn is_literal(self) -> bool {
         matches!(Word::decode(self.word), Word::Literal { .. })
@@ -49,6 +72,19 @@ pub struct Split {
     pub outside: u8,
     /// Where the programs of the other boxes are.
     pub ranges: [Range<usize>; 8],
+    /// How many words they have, those in items included.
+    pub words: [usize; 8],
+    /// The boxes whose programs have items.
+    pub with_items: u8,
+}
+
+/// Eight boxes, as surfaces and as items see them.
+#[derive(Clone, Copy, Debug)]
+pub struct Boxes<'a> {
+    /// The boxes.
+    pub octants: Octants,
+    /// The items of the program, and the cell on their lattice whose octants the boxes are; none where the program has none.
+    pub items: Option<(&'a Items, LatticeCell)>,
 }
 
 impl Split {
@@ -110,25 +146,26 @@ impl Splitter {
         catalog: &Catalog,
         stack: &mut Vec<Entry>,
         program: Range<usize>,
-        octants: &Octants,
-        boxes: u8,
+        boxes: &Boxes,
+        asked: u8,
     ) -> Split {
-        let sides = self.judge(catalog, &stack[program.clone()], octants, boxes);
+        let sides = self.judge(catalog, &stack[program.clone()], boxes, asked);
         let mut split = Split { inside: sides.inside, outside: sides.outside, ..Split::default() };
-        if boxes & !(sides.inside | sides.outside) != 0 {
-            self.write(stack, program, &mut split.ranges);
+        if asked & !(sides.inside | sides.outside) != 0 {
+            self.write(stack, program, boxes, &mut split);
         }
         split
     }
 
     /// Judges every node; returns what the whole is.
-    fn judge(&mut self, catalog: &Catalog, entries: &[Entry], octants: &Octants, boxes: u8) -> OctantSides {
+    fn judge(&mut self, catalog: &Catalog, entries: &[Entry], boxes: &Boxes, all: u8) -> OctantSides {
         self.kept.clear();
         self.kept.resize(entries.len(), 0);
         self.several.resize(entries.len().max(self.several.len()), 0);
         self.judged.clear();
         self.known.clear();
-        let (mut at, mut asked) = (0, boxes);
+        let (mut at, mut asked) = (0, all);
+        let classified = u64::from(all.count_ones());
         loop {
             let entry = entries[at];
             let negated = match Word::decode(entry.word) {
@@ -141,21 +178,27 @@ impl Splitter {
                     continue;
                 }
             };
-            let mut sides = catalog.surfaces[entry.surface as usize].classify_octants(octants);
-            self.classified += 8;
-            self.known.decide(entry.surface, &mut sides);
+            let sides = match &boxes.items {
+                Some((items, cell)) if entry.is_item() => OctantSides { inside: 0, outside: items.missed(entry, cell) },
+                _ => {
+                    self.classified += classified;
+                    let mut sides = catalog.surfaces[entry.surface as usize].classify_octants(&boxes.octants);
+                    self.known.decide(entry.surface, &mut sides);
+                    sides
+                }
+            };
             let (mut truth, mut falsehood) =
                 if negated { (sides.outside, sides.inside) } else { (sides.inside, sides.outside) };
             let mut kept = asked & !(truth | falsehood);
             self.kept[at] = kept;
             at += 1;
-            if let (Some(above), true) = (self.judged.last(), kept != 0) {
+            if let (Some(above), true) = (self.judged.last(), kept != 0 && !entry.is_item()) {
                 self.known.learn(entry.surface, negated, above.is_and, kept);
             }
             // What was found of a node goes up, as far as operators end with it.
             loop {
                 let Some(above) = self.judged.last_mut() else {
-                    return OctantSides { inside: truth & boxes, outside: falsehood & boxes };
+                    return OctantSides { inside: truth & all, outside: falsehood & all };
                 };
                 above.open &= !(if above.is_and { falsehood } else { truth });
                 above.several |= above.one & kept;
@@ -182,7 +225,8 @@ impl Splitter {
     }
 
     /// Writes the nodes that are kept.
-    fn write(&mut self, stack: &mut Vec<Entry>, program: Range<usize>, ranges: &mut [Range<usize>; 8]) {
+    fn write(&mut self, stack: &mut Vec<Entry>, program: Range<usize>, boxes: &Boxes, split: &mut Split) {
+        let ranges = &mut split.ranges;
         let bottom = stack.len();
         let mut next = [0_u32; 8];
         let mut total = 0;
@@ -198,7 +242,7 @@ impl Splitter {
         let entries = &below[program];
 
         self.written.clear();
-        let mut boxes = self.kept[0];
+        let mut here = self.kept[0];
         let (mut below_and, mut below_or) = (0_u8, 0_u8);
         let mut at = 0;
         loop {
@@ -209,12 +253,12 @@ impl Splitter {
                     let word = if done.is_and { Word::And { len } } else { Word::Or { len } };
                     out[header as usize] = Entry { word: word.encode(), surface: 0 };
                 }
-                (boxes, below_and, below_or) = (done.boxes, done.below_and, done.below_or);
+                (here, below_and, below_or) = (done.boxes, done.below_and, done.below_or);
             }
             if at >= entries.len() {
                 break;
             }
-            let kept = self.kept[at] & boxes;
+            let kept = self.kept[at] & here;
             if kept == 0 {
                 at = node_end_of(entries, at);
                 continue;
@@ -224,6 +268,11 @@ impl Splitter {
                     for octant in ones(kept) {
                         out[next[octant] as usize] = entries[at];
                         next[octant] += 1;
+                    }
+                    if let (Some((items, _)), true) = (&boxes.items, entries[at].is_item()) {
+                        split.with_items |= kept;
+                        let more = items.words_of(entries[at]) - 1;
+                        ones(kept).for_each(|octant| split.words[octant] += more);
                     }
                     at += 1;
                     continue;
@@ -237,8 +286,8 @@ impl Splitter {
                 next[octant] += 1;
             }
             let end = node_end_of(entries, at);
-            self.written.push(Written { end, is_and, boxes, with_header, headers, below_and, below_or });
-            boxes = kept;
+            self.written.push(Written { end, is_and, boxes: here, with_header, headers, below_and, below_or });
+            here = kept;
             if is_and {
                 (below_and, below_or) = (below_and | with_header, below_or & !with_header);
             } else {
@@ -246,13 +295,14 @@ impl Splitter {
             }
             at += 1;
         }
-        for (range, next) in ranges.iter_mut().zip(next) {
-            range.end = bottom + next as usize;
+        for (octant, range) in ranges.iter_mut().enumerate() {
+            range.end = bottom + next[octant] as usize;
+            split.words[octant] += range.len();
         }
     }
 }
 
-fn node_end_of(entries: &[Entry], at: usize) -> usize {
+pub(super) fn node_end_of(entries: &[Entry], at: usize) -> usize {
     match Word::decode(entries[at].word) {
         Word::Literal { .. } => at + 1,
         Word::And { len } | Word::Or { len } => at + 1 + len as usize,
@@ -287,77 +337,6 @@ fn counts(sets: &[u8]) -> [u64; 8] {
 fn spread(bits: u8) -> u64 {
     let each = u64::from(bits).wrapping_mul(0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
     (each + 0x7f7f_7f7f_7f7f_7f7f) >> 7 & 0x0101_0101_0101_0101
-}
-
-/// Literals that operators above and before have kept: on which side of their surfaces whatever comes later is.
-#[derive(Debug, Default)]
-struct Known {
-    surfaces: Vec<u32>,
-    literals: Vec<KnownLiteral>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct KnownLiteral {
-    negated: bool,
-    /// On which side of its surface its later siblings are.
-    inside: bool,
-    /// The boxes in which it is kept.
-    boxes: u8,
-}
-
-impl Known {
-    /// So many of the latest are looked at.
-    const LATEST: usize = 64;
-
-    fn clear(&mut self) {
-        self.truncate(0);
-    }
-
-    fn len(&self) -> usize {
-        self.surfaces.len()
-    }
-
-    fn truncate(&mut self, len: usize) {
-        self.surfaces.truncate(len);
-        self.literals.truncate(len);
-    }
-
-    /// An operand of an operator is kept in some boxes: true for its later siblings in an `And`, false in an `Or`.
-    fn learn(&mut self, surface: u32, negated: bool, is_and: bool, boxes: u8) {
-        self.surfaces.push(surface);
-        self.literals.push(KnownLiteral { negated, inside: is_and != negated, boxes });
-    }
-
-    /// An operator ends whose literals are known from `start` on. In the boxes in which it has but one operand left, a
-    /// literal takes its place in the operator above.
-    fn go_up(&mut self, start: usize, is_and: bool, alone: u8) {
-        let mut end = start;
-        for i in start..self.len() {
-            let KnownLiteral { negated, boxes, .. } = self.literals[i];
-            if boxes & alone != 0 {
-                self.surfaces[end] = self.surfaces[i];
-                self.literals[end] = KnownLiteral { negated, inside: is_and != negated, boxes: boxes & alone };
-                end += 1;
-            }
-        }
-        self.truncate(end);
-    }
-
-    /// Puts the boxes that cross a surface on the side that is known, if it is.
-    #[inline(always)]
-    fn decide(&self, surface: u32, sides: &mut OctantSides) {
-        let start = self.len().saturating_sub(Self::LATEST);
-        let latest = &self.surfaces[start..];
-        if !latest.iter().fold(false, |found, &known| found | (known == surface)) {
-            return;
-        }
-        let crossed = !(sides.inside | sides.outside);
-        for (&known, literal) in latest.iter().zip(&self.literals[start..]) {
-            if known == surface {
-                *(if literal.inside { &mut sides.inside } else { &mut sides.outside }) |= crossed & literal.boxes;
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! Building: every cell hands its children only what survived in it.
 
 use super::subtree::Subtree;
+use super::worker::{Place, Reduced, Worker};
 use super::{CellWord, Octree};
-use crate::compile::{Catalog, Constant, Entry, Program, Split, Splitter, without_repeats};
+use crate::compile::{Boxes, Catalog, Constant, Entry, Items, Lattice, LatticeCell, Program, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
 use crate::surface::Octants;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// When to stop cutting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,32 +72,38 @@ pub fn build(
     };
 
     exec.progress.begin("building the octree", PROGRESS_STEPS);
-    let mut splitter = Splitter::default();
     let words = without_repeats(catalog, words);
-    let mut entries: Vec<Entry> = words.iter().map(|&word| Entry::new(catalog, word)).collect();
-    let whole = 0..entries.len();
-    let split = splitter.split(catalog, &mut entries, whole, &Octants::all(&octree.grown(center, half)), 1);
-    let reduced = &entries[split.ranges[0].clone()];
+    let lattice = Lattice { corner: center - Vec3::splat(half), edge: 2.0 * half, margin: 2.0 * margin };
+    let entries = words.iter().map(|&word| Entry::new(catalog, word)).collect();
+    let items = Items::new(catalog, entries, &lattice);
+    let mut worker = Worker::new(items.program());
+    let boxes = Boxes { octants: Octants::all(&octree.grown(center, half)), items: Some((&items, LatticeCell::WHOLE)) };
+    let whole = 0..worker.stack.len();
+    let split = worker.splitter.split(catalog, &mut worker.stack, whole, &boxes, 1);
     let budget = match options.depth {
         Some(_) => u64::MAX,
-        None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
+        None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * split.words[0] as u64,
     };
     let builder = Builder {
         catalog,
-        octree: &octree,
+        items: &items,
+        margin,
         leaf_surfaces: options.leaf_surfaces,
         depth,
         by_cost: options.depth.is_none(),
         exec,
     };
-    let result = match (split.inside, split.outside) {
-        (0, 0) => builder.top_cell(reduced, Place { center, half, level: 0 }, budget),
-        (inside, _) => Ok(Part::constant(inside != 0)),
+    let result = match split.constant(0) {
+        Some(inside) => Ok(Part::constant(inside)),
+        None => {
+            let place = Place { center, half, on_lattice: LatticeCell::ROOT, level: 0 };
+            builder.top_cell(&worker.stack, Reduced::of(&split, 0), place, budget)
+        }
     };
     exec.progress.end();
     let part = result?;
     let mut tree = Subtree::default();
-    octree.surfaces_classified = splitter.classified + part.classified;
+    octree.surfaces_classified = worker.splitter.classified + part.classified;
     octree.root = part.assemble(&mut tree);
     octree.branches = tree.branches;
     octree.programs = tree.programs;
@@ -120,61 +126,49 @@ const MOST_WORDS_READ: u64 = 4000;
 const MOST_WORDS_READ_AT_LEAST: u64 = 1 << 18;
 
 /// Progress is counted in cells of this level.
-const PROGRESS_LEVEL: u32 = 3;
+pub(super) const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
 /// Children of cells with so many words are built in parallel.
-const PARALLEL_WORDS: usize = 256;
-
-/// Where a cell is.
-#[derive(Clone, Copy)]
-struct Place {
-    center: Vec3,
-    half: f64,
-    level: u32,
-}
-
-impl Place {
-    fn child(self, octant: usize) -> Self {
-        let half = self.half / 2.0;
-        Self { center: Octree::child_center(self.center, half, octant), half, level: self.level + 1 }
-    }
-}
+const PARALLEL_WORDS: usize = 1024;
 
 /// How many words are read to cut a cell.
-fn cost_of_cutting(words: usize) -> u64 {
+pub(super) fn cost_of_cutting(words: usize) -> u64 {
     8 * words as u64
 }
 
 /// The part of a budget for a child with so many words of all.
-fn share(budget: u64, words: usize, all: usize) -> u64 {
+pub(super) fn share(budget: u64, words: usize, all: usize) -> u64 {
     (u128::from(budget) * words as u128 / all.max(1) as u128) as u64
 }
 
-struct Builder<'a> {
-    catalog: &'a Catalog,
-    /// Only for its geometry.
-    octree: &'a Octree,
-    leaf_surfaces: usize,
-    depth: u32,
+/// What all workers share.
+pub(super) struct Builder<'a> {
+    pub catalog: &'a Catalog,
+    pub items: &'a Items,
+    pub margin: f64,
+    pub leaf_surfaces: usize,
+    pub depth: u32,
     /// Whether cells are cut only where that is expected to pay.
-    by_cost: bool,
-    exec: &'a Exec,
+    pub by_cost: bool,
+    pub exec: &'a Exec,
 }
 
 impl Builder<'_> {
-    /// Builds a cell with a long program: its children in parallel.
-    fn top_cell(&self, program: &[Entry], place: Place, budget: u64) -> Result<Part, Cancelled> {
-        let mut splitter = Splitter::default();
-        let mut stack = program.to_vec();
-        let program = 0..stack.len();
-        let large = program.len() >= PARALLEL_WORDS && !self.is_leaf(&stack, place.level, budget);
-        let cut = if large { self.cut(&mut splitter, &mut stack, program.clone(), place)? } else { None };
-        let Some((split, all)) = cut else {
-            let mut tree = Subtree::default();
-            let root = self.cell(&mut tree, &mut splitter, &mut stack, program, place, budget)?;
-            return Ok(Part { cells: Cells::Tree(tree, root), classified: splitter.classified });
+    /// Builds a cell whose program is on that stack; if it is a long one, its children in parallel.
+    fn top_cell(&self, stack: &[Entry], reduced: Reduced, place: Place, budget: u64) -> Result<Part, Cancelled> {
+        let mut worker = Worker::new(stack[reduced.range.clone()].to_vec());
+        let mut reduced = Reduced { range: 0..reduced.range.len(), ..reduced };
+        if reduced.words < PARALLEL_WORDS {
+            let root = worker.cell(self, reduced, place, budget)?;
+            return Ok(Part { cells: Cells::Tree(worker.tree, root), classified: worker.splitter.classified });
+        }
+        let Some(split) = worker.cut(self, &mut reduced, place, budget)? else {
+            let root = worker.tree.leaf(&worker.stack[reduced.range], place.level);
+            self.advance(place.level);
+            return Ok(Part { cells: Cells::Tree(worker.tree, root), classified: worker.splitter.classified });
         };
-        let left = budget - cost_of_cutting(program.len());
+        let left = budget - cost_of_cutting(reduced.words);
+        let all = split.words.iter().sum();
         let children: Vec<Result<Part, Cancelled>> = (0..8)
             .into_par_iter()
             .map(|octant| match split.constant(octant) {
@@ -183,87 +177,21 @@ impl Builder<'_> {
                     Ok(Part::constant(inside))
                 }
                 None => {
-                    let program = &stack[split.ranges[octant].clone()];
-                    self.top_cell(program, place.child(octant), share(left, program.len(), all))
+                    let budget = share(left, split.words[octant], all);
+                    self.top_cell(&worker.stack, Reduced::of(&split, octant), place.child(octant), budget)
                 }
             })
             .collect();
         let children = children.into_iter().collect::<Result<Vec<Part>, Cancelled>>()?;
-        let classified = splitter.classified + children.iter().map(|child| child.classified).sum::<u64>();
+        let classified = worker.splitter.classified + children.iter().map(|child| child.classified).sum::<u64>();
         Ok(Part { cells: Cells::Branch(children), classified })
     }
 
-    /// Builds a cell whose program is the range `program` of `stack`; leaves the stack as it was.
-    fn cell(
-        &self,
-        tree: &mut Subtree,
-        splitter: &mut Splitter,
-        stack: &mut Vec<Entry>,
-        program: Range<usize>,
-        place: Place,
-        budget: u64,
-    ) -> Result<CellWord, Cancelled> {
-        let leaf = self.is_leaf(&stack[program.clone()], place.level, budget);
-        let bottom = stack.len();
-        let cut = if leaf { None } else { self.cut(splitter, stack, program.clone(), place)? };
-        let Some((split, all)) = cut else {
-            self.advance(place.level);
-            return Ok(tree.leaf(&stack[program], place.level));
-        };
-        let left = budget - cost_of_cutting(program.len());
-        let index = tree.branches.len();
-        tree.branches.push([CellWord::OUTSIDE; 8]);
-        for octant in 0..8 {
-            let word = match split.constant(octant) {
-                Some(inside) => {
-                    self.advance(place.level + 1);
-                    if inside { CellWord::INSIDE } else { CellWord::OUTSIDE }
-                }
-                None => {
-                    let program = split.ranges[octant].clone();
-                    let budget = share(left, program.len(), all);
-                    self.cell(tree, splitter, stack, program, place.child(octant), budget)?
-                }
-            };
-            tree.branches[index][octant] = word;
-        }
-        stack.truncate(bottom);
-        if place.level == PROGRESS_LEVEL {
-            self.exec.progress.advance(1);
-        }
-        Ok(tree.join(index))
-    }
-
-    /// The programs of a cell's children, on top of the stack, and how many words they have together. `None`, and the stack
-    /// as it was, where it does not pay to cut the cell.
-    fn cut(
-        &self,
-        splitter: &mut Splitter,
-        stack: &mut Vec<Entry>,
-        program: Range<usize>,
-        place: Place,
-    ) -> Result<Option<(Split, usize)>, Cancelled> {
-        self.exec.cancel.check()?;
-        let (bottom, words) = (stack.len(), program.len());
-        let octants = Octants::new(place.center, place.half / 2.0, self.octree.margin);
-        let split = splitter.split(self.catalog, stack, program, &octants, u8::MAX);
-        if self.pays(words, split.ranges.iter().map(Range::len)) {
-            let all = split.ranges.iter().map(Range::len).sum();
-            return Ok(Some((split, all)));
-        }
-        stack.truncate(bottom);
-        Ok(None)
-    }
-
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.
-    fn advance(&self, level: u32) {
+    pub fn advance(&self, level: u32) {
         if level <= PROGRESS_LEVEL {
             self.exec.progress.advance(1 << (3 * (PROGRESS_LEVEL - level)));
         }
-    }
-
-    fn is_leaf(&self, program: &[Entry], level: u32, budget: u64) -> bool {
-        level >= self.depth || cost_of_cutting(program.len()) > budget || self.surfaces_at_most(program)
     }
 
     /// Whether rays are expected to be faster in the children, whose programs have those lengths (0 where a child is all
@@ -271,31 +199,15 @@ impl Builder<'_> {
     ///
     /// A ray that meets a cube meets each of its octants with a probability of 1/4 (Cauchy: the ratio of surfaces), and some
     /// end before they get there.
-    fn pays(&self, words: usize, children: impl Iterator<Item = usize>) -> bool {
+    pub fn pays(&self, words: usize, children: [usize; 8]) -> bool {
         /// A step to the next cell takes as long as so many words of a program.
         const STEP: f64 = 2.0;
         /// The share of rays through a cell that get to a certain child.
         const REACHED: f64 = 0.2;
         /// With longer programs there is always something to gain, if not at once.
         const LONG: usize = 64;
-        let cut = REACHED * children.map(|words| STEP + words as f64).sum::<f64>();
+        let cut = REACHED * children.iter().map(|&words| STEP + words as f64).sum::<f64>();
         !self.by_cost || words > LONG || cut < STEP + words as f64
-    }
-
-    /// Whether a program has no more different surfaces than a leaf may.
-    fn surfaces_at_most(&self, program: &[Entry]) -> bool {
-        let mut seen = [0; BuildOptions::MAX_LEAF_SURFACES];
-        let mut count = 0;
-        for entry in program.iter().filter(|entry| entry.is_literal()) {
-            if !seen[..count].contains(&entry.surface) {
-                if count == self.leaf_surfaces.min(seen.len()) {
-                    return false;
-                }
-                seen[count] = entry.surface;
-                count += 1;
-            }
-        }
-        true
     }
 }
 

@@ -96,11 +96,39 @@ fn bits(holds: impl Fn(usize) -> bool) -> u8 {
     (0..LANES).fold(0, |bits, i| bits | u8::from(lanes[i]) << i)
 }
 
+/// The four boxes in the low place along an axis, the four in the high place, or both.
+#[inline(always)]
+pub(crate) fn halves(axis: usize, [low, high]: [bool; 2]) -> u8 {
+    const LOW: [u8; 3] = [0b0101_0101, 0b0011_0011, 0b0000_1111];
+    (if low { LOW[axis] } else { 0 }) | (if high { !LOW[axis] } else { 0 })
+}
+
 impl Plane {
+    /// The axis that the normal is along, if it is.
+    #[inline(always)]
+    pub(super) fn axis(&self) -> Option<usize> {
+        let n = self.normal;
+        match (n.x == 0.0, n.y == 0.0, n.z == 0.0) {
+            (false, true, true) => Some(0),
+            (true, false, true) => Some(1),
+            (true, true, false) => Some(2),
+            _ => None,
+        }
+    }
+
     #[inline(always)]
     fn classify_octants(&self, octants: &Octants) -> OctantSides {
         let Octants { low, high, half, .. } = octants;
         let n = self.normal;
+        if let Some(axis) = self.axis() {
+            // Four boxes at a time.
+            let reach = n[axis].abs() * half[axis];
+            let height = [low, high].map(|middle| n[axis] * middle[axis] - self.offset);
+            return OctantSides {
+                inside: halves(axis, height.map(|height| height <= -reach)),
+                outside: halves(axis, height.map(|height| height >= reach)),
+            };
+        }
         let (x, y, z) = (
             along(0, [n.x * low.x, n.x * high.x]),
             along(1, [n.y * low.y, n.y * high.y]),
@@ -124,7 +152,7 @@ impl Quadric {
 
     /// The axis of the scene that each of the quadric's own coordinates is along, if they all are along one.
     #[inline(always)]
-    fn axes(&self) -> Option<[usize; 3]> {
+    pub(super) fn axes(&self) -> Option<[usize; 3]> {
         let [x, y, z] = self.to_local.rows;
         let straight = x.y == 0.0 && x.z == 0.0 && y.x == 0.0 && y.z == 0.0 && z.x == 0.0 && z.y == 0.0;
         if straight {
