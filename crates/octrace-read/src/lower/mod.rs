@@ -72,10 +72,11 @@ pub(crate) fn lower(ast: &Ast, source: &Source, options: &ReadOptions, out: &mut
         Dialect::Dump => Scene::SNAP_SIX_DIGITS,
         Dialect::Scene => 0.0,
     };
-    let mut node_counts = BTreeMap::new();
+    let mut counts = vec![0; ast.names().len()];
     for node in ast.nodes() {
-        *node_counts.entry(ast.name(node)).or_insert(0) += 1;
+        counts[ast.name_index(node)] += 1;
     }
+    let node_counts = ast.names().zip(counts).filter(|&(_, count)| count > 0);
     Loaded {
         scene: Scene {
             solid,
@@ -86,7 +87,7 @@ pub(crate) fn lower(ast: &Ast, source: &Source, options: &ReadOptions, out: &mut
             background: settings.background,
             snap: options.snap.unwrap_or(default_snap),
         },
-        node_counts: node_counts.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
+        node_counts: node_counts.map(|(name, count)| (name.to_owned(), count)).collect(),
         depth,
         leaves,
         part_places: parts.places,

@@ -66,6 +66,8 @@ struct Frame<'a> {
 /// The state of lowering one tree.
 pub(super) struct Walk<'a, 'r> {
     ast: &'a Ast,
+    /// What the names of the tree mean, in their order.
+    words: Vec<Option<&'static Word>>,
     report: Report<'r>,
     shapes: Shapes,
     skip_unsupported: bool,
@@ -84,6 +86,7 @@ impl<'a, 'r> Walk<'a, 'r> {
     pub fn new(ast: &'a Ast, options: &ReadOptions, report: Report<'r>) -> Self {
         Self {
             ast,
+            words: ast.names().map(language::find).collect(),
             report,
             shapes: Shapes::new(options.facets),
             skip_unsupported: options.skip_unsupported,
@@ -177,7 +180,7 @@ impl<'a, 'r> Walk<'a, 'r> {
         let is_root = self.root == Some(node);
         let counts = parent.counts || is_root;
         let (look, map) = if is_root { (Look::default(), Affine::IDENTITY) } else { (parent.look, parent.map) };
-        let Some(word) = language::find(self.ast.name(node)) else {
+        let Some(word) = self.words[self.ast.name_index(node)] else {
             self.unknown(node);
             let kind = Kind::Unsupported("");
             return Step::Into(Box::new(self.frame(node, kind, look, map)));

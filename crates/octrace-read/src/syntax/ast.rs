@@ -5,7 +5,7 @@
 //! one array of `f64`, and a vector of such vectors (points, faces, matrices) a slice of rows.
 
 use crate::SourceRange;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A node of the tree: an index in the order of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -194,6 +194,16 @@ impl Ast {
         (self.data(node).end - node.0) as usize
     }
 
+    /// The names of nodes and arguments, each once.
+    pub(crate) fn names(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.names.list.iter().map(|name| &**name)
+    }
+
+    /// Which of the [`names`](Self::names) the node's is.
+    pub(crate) fn name_index(&self, node: NodeId) -> usize {
+        self.data(node).name as usize
+    }
+
     /// What the node is called.
     pub fn name(&self, node: NodeId) -> &str {
         self.names.get(self.data(node).name)
@@ -316,7 +326,7 @@ impl Iterator for Siblings<'_> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     list: Vec<Box<str>>,
-    index: HashMap<Box<str>, u32>,
+    index: FxHashMap<Box<str>, u32>,
 }
 
 impl Names {

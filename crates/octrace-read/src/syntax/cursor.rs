@@ -112,6 +112,9 @@ impl<'s> Cursor<'s> {
     /// Steps over a number. `None`, and no step, where there is none or it runs on into something else, as in `12ab`.
     #[inline]
     pub fn number(&mut self) -> Option<f64> {
+        if let Some(value) = self.short_integer() {
+            return Some(value);
+        }
         let (value, length) = fast_float2::parse_partial::<f64, _>(&self.bytes()[self.pos..]).ok()?;
         match self.bytes().get(self.pos + length) {
             Some(&b) if is_name_byte(b) || b == b'.' => None,
@@ -120,6 +123,30 @@ impl<'s> Cursor<'s> {
                 Some(value)
             }
         }
+    }
+
+    /// A number of a few digits and nothing else. Most numbers of matrices are zero or one.
+    #[inline]
+    fn short_integer(&mut self) -> Option<f64> {
+        /// An `f64` holds so many digits exactly.
+        const MOST_DIGITS: usize = 15;
+        let rest = &self.bytes()[self.pos..];
+        let negative = rest.first() == Some(&b'-');
+        let digits = &rest[usize::from(negative)..];
+        let (mut value, mut count) = (0_u64, 0);
+        while let Some(digit @ b'0'..=b'9') = digits.get(count) {
+            if count == MOST_DIGITS {
+                return None;
+            }
+            value = 10 * value + u64::from(digit - b'0');
+            count += 1;
+        }
+        let runs_on = digits.get(count).is_some_and(|&b| is_name_byte(b) || b == b'.');
+        if count == 0 || runs_on {
+            return None;
+        }
+        self.pos += usize::from(negative) + count;
+        Some(if negative { -(value as f64) } else { value as f64 })
     }
 
     /// Steps over everything up to the end of the line, or a byte that ends or opens statements.
@@ -212,4 +239,38 @@ impl<'s> Cursor<'s> {
 
 fn is_name_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'$'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_integers_are_what_any_parser_makes_of_them() {
+        for text in [
+            "0",
+            "-0",
+            "7",
+            "-12",
+            "007",
+            "123456789012345",
+            "1234567890123456",
+            "9007199254740993",
+            "1e3",
+            "1.5",
+            "-.5",
+        ] {
+            for end in ["", ",", "]", " "] {
+                let all = format!("{text}{end}");
+                let mut cursor = Cursor::new(&all, 0);
+                let expected: f64 = text.parse().expect("a number");
+                assert_eq!(cursor.number().map(f64::to_bits), Some(expected.to_bits()), "{all}");
+                assert_eq!(cursor.pos() as usize, text.len());
+            }
+        }
+        for text in ["12ab", "-", "1.2.3", "x", "", "3$"] {
+            let mut cursor = Cursor::new(text, 0);
+            assert_eq!((cursor.number(), cursor.pos()), (None, 0), "{text}");
+        }
+    }
 }

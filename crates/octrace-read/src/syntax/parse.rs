@@ -39,7 +39,7 @@ fn unreadable(source: &Source) -> Option<Diagnostic> {
     if source.is_too_large() {
         return Some(Diagnostic::error("file-too-large", SourceRange::default(), "the file is larger than 4 GiB"));
     }
-    let (at, what) = match (source.not_utf8_at(), source.text().bytes().position(|b| b == 0)) {
+    let (at, what) = match (source.not_utf8_at(), source.text().find('\0')) {
         (Some(at), _) => (at, "not UTF-8"),
         (None, Some(at)) => (at as u32, "zero"),
         (None, None) => return None,
@@ -48,22 +48,25 @@ fn unreadable(source: &Source) -> Option<Diagnostic> {
     Some(Diagnostic::error("not-text", byte(at), message).with_help(HELP))
 }
 
-/// Words of OpenSCAD's language that only its evaluator understands.
-const EVALUATED_WORDS: [&str; 13] = [
-    "module",
-    "function",
-    "for",
-    "intersection_for",
-    "if",
-    "else",
-    "let",
-    "assign",
-    "each",
-    "echo",
-    "assert",
-    "include",
-    "use",
-];
+/// Whether it is a word of OpenSCAD's language that only its evaluator understands.
+fn is_evaluated(word: &str) -> bool {
+    matches!(
+        word,
+        "module"
+            | "function"
+            | "for"
+            | "intersection_for"
+            | "if"
+            | "else"
+            | "let"
+            | "assign"
+            | "each"
+            | "echo"
+            | "assert"
+            | "include"
+            | "use"
+    )
+}
 
 /// A node that waits for children.
 #[derive(Clone, Copy, Debug)]
@@ -254,7 +257,7 @@ impl Parser<'_, '_> {
             self.junk(start);
             return None;
         }
-        if EVALUATED_WORDS.contains(&name) {
+        if is_evaluated(name) {
             self.needs_evaluation(name_at);
             self.skip_evaluated_statement(name);
             return None;

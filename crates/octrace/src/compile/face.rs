@@ -26,11 +26,13 @@ const FIVE: [(f64, f64); 5] = [
 ];
 
 impl Face {
-    /// Points of the face that fix its surface: another surface near all of them is the same.
-    pub fn samples(&self) -> Vec<Vec3> {
+    /// Points of the face that fix its surface, in `room` if not in the face itself: another surface near all of them is the
+    /// same.
+    pub fn samples<'a>(&'a self, room: &'a mut Vec<Vec3>) -> &'a [Vec3] {
+        room.clear();
         match self {
-            Self::Plane { corners, .. } => corners.to_vec(),
-            Self::Unbounded { .. } => Vec::new(),
+            Self::Plane { corners, .. } => return corners,
+            Self::Unbounded { .. } => {}
             Self::Quadric { kind: QuadricKind::Sphere, map, .. } => {
                 const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
                 let local = [
@@ -44,14 +46,14 @@ impl Face {
                     Vec3::new(H, 0.0, H),
                     Vec3::new(0.0, H, H),
                 ];
-                local.map(|p| map.point(p)).to_vec()
+                room.extend(local.map(|p| map.point(p)));
             }
             Self::Quadric { kind, map, heights, .. } => {
                 // Five points fix the conic, three more the direction.
                 let radius = |z: f64| if *kind == QuadricKind::Cone { z.abs() } else { 1.0 };
                 let at = |(x, y): (f64, f64), z: f64| map.point(Vec3::new(x * radius(z), y * radius(z), z));
                 let (low, high) = *heights;
-                FIVE.iter().map(|&p| at(p, low)).chain([0, 2, 3].map(|i| at(FIVE[i], high))).collect()
+                room.extend(FIVE.iter().map(|&p| at(p, low)).chain([0, 2, 3].map(|i| at(FIVE[i], high))));
             }
             Self::Torus { minor, map, .. } => {
                 let around = |(c, s): (f64, f64)| {
@@ -60,16 +62,17 @@ impl Face {
                     let tube = tube.into_iter().filter(|(radius, _)| *radius > 0.0);
                     tube.map(move |(radius, z)| map.point(Vec3::new(c * radius, s * radius, z)))
                 };
-                FIVE.into_iter().flat_map(around).collect()
+                room.extend(FIVE.into_iter().flat_map(around));
             }
         }
+        room
     }
 
-    /// A length for "the larger face first".
-    pub fn size(&self) -> f64 {
+    /// A length for "the larger face first". `samples` are its [`samples`](Self::samples).
+    pub fn size(&self, samples: &[Vec3]) -> f64 {
         match self {
             Self::Unbounded { .. } => f64::INFINITY,
-            bounded => Bounds::around(bounded.samples()).diagonal(),
+            _ => Bounds::around(samples.iter().copied()).diagonal(),
         }
     }
 }

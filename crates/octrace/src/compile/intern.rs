@@ -11,7 +11,7 @@ use super::place::Place;
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::primitive::SurfaceRef;
 use crate::surface::{Plane, Quadric, QuadricKind, Surface, Torus};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// What joining surfaces did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,19 +31,25 @@ pub(super) fn intern(
     snap: f64,
     surfaces: &mut Vec<Surface>,
 ) -> (Vec<SurfaceRef>, CompileReport) {
-    let mut order: Vec<(f64, u32)> = faces.iter().enumerate().map(|(i, f)| (f.size(), i as u32)).collect();
-    order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let mut room = Vec::new();
+    let sized = |(i, face): (usize, &Face)| (face.size(face.samples(&mut room)), i as u32);
+    let mut order: Vec<(f64, u32)> = faces.iter().enumerate().map(sized).collect();
+    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut interner = Interner::new(extent, snap, surfaces);
     let mut refs = vec![SurfaceRef { surface: 0, flipped: false }; faces.len()];
     for (_, index) in order {
-        refs[index as usize] = interner.face(&faces[index as usize]);
+        let face = &faces[index as usize];
+        refs[index as usize] = interner.face(face, face.samples(&mut room));
     }
     (refs, interner.report)
 }
 
 struct Interner<'a> {
     surfaces: &'a mut Vec<Surface>,
-    bins: HashMap<[i64; 5], Vec<u32>>,
+    /// The newest surface of each bin.
+    bins: FxHashMap<u64, u32>,
+    /// For every surface the next older one in its bin.
+    older: Vec<Option<u32>>,
     center: Vec3,
     radius: f64,
     /// Faces this close are the same, in scene units.
@@ -76,18 +82,19 @@ impl<'a> Interner<'a> {
         let place_tolerance = tolerance + normal_tolerance * size;
         let noteworthy = rounding.max(1e-10 * size);
         let report = CompileReport { tolerance, ..CompileReport::default() };
-        let (bins, center, radius) = (HashMap::new(), extent.center(), size / 2.0);
-        Self { surfaces, bins, center, radius, tolerance, noteworthy, normal_tolerance, place_tolerance, report }
+        let (bins, older, center, radius) = (FxHashMap::default(), Vec::new(), extent.center(), size / 2.0);
+        Self { surfaces, bins, older, center, radius, tolerance, noteworthy, normal_tolerance, place_tolerance, report }
     }
 
-    fn face(&mut self, face: &Face) -> SurfaceRef {
+    /// The surface of a face with those samples.
+    fn face(&mut self, face: &Face, samples: &[Vec3]) -> SurfaceRef {
         match face {
             Face::Plane { plane, corners } => self.plane(plane, corners),
             Face::Unbounded { plane } => self.plane(plane, &self.corners_of(plane)),
-            Face::Quadric { kind, map, to_local, .. } => self.quadric(*kind, map, *to_local, &face.samples()),
+            Face::Quadric { kind, map, to_local, .. } => self.quadric(*kind, map, *to_local, samples),
             Face::Torus { minor, map, to_local } => {
                 let place = Place { kind: 4, at: (map.translation - self.center).to_array(), extra: 0.0 };
-                self.curved(Surface::Torus(Torus { minor: *minor, to_local: *to_local }), place, &face.samples())
+                self.curved(Surface::Torus(Torus { minor: *minor, to_local: *to_local }), place, samples)
             }
         }
     }
@@ -167,7 +174,7 @@ impl<'a> Interner<'a> {
                 map.translation + axis * axis.dot(self.center - map.translation)
             }
         };
-        let place = Place { kind: 1 + kind as i64, at: (anchor - self.center).to_array(), extra: 0.0 };
+        let place = Place { kind: 1 + kind as u8, at: (anchor - self.center).to_array(), extra: 0.0 };
         self.curved(Surface::Quadric(Quadric { kind, to_local }), place, samples)
     }
 
@@ -186,22 +193,32 @@ impl<'a> Interner<'a> {
     /// A surface within tolerance of all the samples, if there is one near that place: the oldest. Or the very same one:
     /// what was squeezed a lot may itself be off its samples.
     fn find(&mut self, wanted: &Surface, place: Place, samples: &[Vec3]) -> Option<u32> {
-        let width = self.place_tolerance * BIN_WIDTH;
-        let probes = place.keys(width, self.place_tolerance);
         let matching = |surface: u32| {
             let surface = &self.surfaces[surface as usize];
             if surface.same_numbers(wanted) {
                 return Some(0.0);
             }
-            let distance = samples.iter().map(|&p| surface.distance(p)).fold(0.0, f64::max);
-            (distance <= self.tolerance).then_some(distance)
+            let mut farthest = 0.0_f64;
+            for &p in samples {
+                farthest = farthest.max(surface.distance(p));
+                if farthest > self.tolerance {
+                    return None;
+                }
+            }
+            Some(farthest)
         };
-        let best = probes
-            .iter()
-            .filter_map(|key| self.bins.get(key))
-            .flatten()
-            .filter_map(|&surface| Some((surface, matching(surface)?)))
-            .min_by_key(|&(surface, _)| surface);
+        let mut best: Option<(u32, f64)> = None;
+        place.for_each_bin(self.bin_width(), self.place_tolerance, |bin| {
+            let mut next = self.bins.get(&bin).copied();
+            while let Some(surface) = next {
+                if best.is_none_or(|(best, _)| surface < best)
+                    && let Some(moved) = matching(surface)
+                {
+                    best = Some((surface, moved));
+                }
+                next = self.older[surface as usize];
+            }
+        });
         let (surface, moved) = best?;
         self.note_move(moved);
         Some(surface)
@@ -210,8 +227,13 @@ impl<'a> Interner<'a> {
     fn insert(&mut self, surface: Surface, place: Place) -> u32 {
         let id = self.surfaces.len() as u32;
         self.surfaces.push(surface);
-        self.bins.entry(place.key(self.place_tolerance * BIN_WIDTH)).or_default().push(id);
+        self.older.resize(id as usize, None);
+        self.older.push(self.bins.insert(place.own_bin(self.bin_width()), id));
         id
+    }
+
+    fn bin_width(&self) -> f64 {
+        self.place_tolerance * BIN_WIDTH
     }
 
     fn note_move(&mut self, moved: f64) {

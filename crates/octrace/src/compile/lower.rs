@@ -1,6 +1,6 @@
 //! From solids to programs: primitives become intersections of surfaces, coincident surfaces one.
 
-use super::expr::{Expr, Op};
+use super::draft::{Draft, Op, Value};
 use super::face::Face;
 use super::intern::intern;
 use super::{Catalog, CompileReport, Constant, Leaf, Literal, Program, Word};
@@ -27,9 +27,8 @@ pub struct Compiled {
 /// If there are more than 2³⁰ uses of surfaces.
 pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
     let mut lowering = Lowering { snap, ..Lowering::default() };
-    let lowered: Vec<Lowered> =
-        bodies.iter().map(|body| lowering.solid(body, &Affine::IDENTITY, None, false)).collect();
-    let extent = lowered.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounded));
+    let mut programs: Vec<Program> = bodies.iter().map(|body| lowering.program(body)).collect();
+    let extent = programs.iter().fold(Bounds::EMPTY, |all, program| all.union(program.bounds));
 
     let mut catalog = Catalog { leaves: lowering.leaves, ..Catalog::default() };
     let (refs, report) = intern(&lowering.faces, &extent, snap, &mut catalog.surfaces);
@@ -44,33 +43,26 @@ pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
     assert!(literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
 
     // Faces stored the other way round turn their literals' signs.
-    let orient = |program: Expr| -> Constant {
-        match program.into_words() {
-            Constant::Words(mut words) => {
-                for word in &mut words {
-                    if let Word::Literal { index, negated } = Word::decode(*word) {
-                        let flipped = surface_of(&literals[index as usize]).flipped;
-                        *word = Word::Literal { index, negated: negated ^ flipped }.encode();
-                    }
+    for program in &mut programs {
+        for part in [&mut program.whole, &mut program.outer] {
+            let Constant::Words(words) = part else { continue };
+            for word in words {
+                if let Word::Literal { index, negated } = Word::decode(*word) {
+                    let flipped = surface_of(&literals[index as usize]).flipped;
+                    *word = Word::Literal { index, negated: negated ^ flipped }.encode();
                 }
-                Constant::Words(words)
             }
-            constant => constant,
         }
-    };
-    let bodies = lowered
-        .into_iter()
-        .map(|body| Program { whole: orient(body.whole), outer: orient(body.outer), bounds: body.bounded })
-        .collect();
-    Compiled { catalog, bodies, report }
+    }
+    Compiled { catalog, bodies: programs, report }
 }
 
-/// A subtree, lowered.
+/// What came of a subtree.
 struct Lowered {
     /// Its program.
-    whole: Expr,
+    whole: Value,
     /// What is left of the program far away from everything bounded.
-    outer: Expr,
+    outer: Value,
     /// A box around the solid (around what it is the complement of, where it is negated).
     bounds: Bounds,
     /// A box around every maximal bounded part of it.
@@ -80,8 +72,8 @@ struct Lowered {
 impl Lowered {
     /// Everything or nothing.
     fn constant(inside: bool) -> Self {
-        let constant = Expr::Constant(inside);
-        Self { whole: constant, outer: Expr::Constant(inside), bounds: Bounds::EMPTY, bounded: Bounds::EMPTY }
+        let constant = Value::Constant(inside);
+        Self { whole: constant, outer: constant, bounds: Bounds::EMPTY, bounded: Bounds::EMPTY }
     }
 }
 
@@ -92,6 +84,8 @@ struct Lowering {
     meshes: Vec<PendingMesh>,
     literals: Vec<PendingLiteral>,
     leaves: Vec<Leaf>,
+    whole: Draft,
+    outer: Draft,
 }
 
 /// A literal whose surface is not known yet.
@@ -128,6 +122,13 @@ impl PendingMesh {
 }
 
 impl Lowering {
+    /// Lowers a body.
+    fn program(&mut self, body: &Solid) -> Program {
+        let lowered = self.solid(body, &Affine::IDENTITY, None, false);
+        let whole = self.whole.finish(lowered.whole);
+        Program { whole, outer: self.outer.finish(lowered.outer), bounds: lowered.bounded }
+    }
+
     /// Lowers a solid; `negated` asks for its complement.
     fn solid(&mut self, solid: &Solid, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
         const RED_ZONE: usize = 64 << 10;
@@ -152,29 +153,33 @@ impl Lowering {
         part: Option<PartId>,
         negated: bool,
     ) -> Lowered {
-        let children: Vec<Lowered> = children
-            .iter()
-            .enumerate()
-            .map(|(i, child)| self.solid(child, map, part, negated ^ (op == BoolOp::Difference && i > 0)))
-            .collect();
-        let bounds = match op {
-            BoolOp::Union => children.iter().fold(Bounds::EMPTY, |all, c| all.union(c.bounds)),
-            BoolOp::Intersection => children.iter().fold(Bounds::ALL, |all, c| all.intersection(c.bounds)),
-            BoolOp::Difference => children.first().map_or(Bounds::EMPTY, |c| c.bounds),
-        };
+        let expr_op = if op == BoolOp::Union { Op::Or } else { Op::And }.under(negated);
+        let (mut whole, mut outer) = (self.whole.open(expr_op), self.outer.open(expr_op));
+        let mut bounds = if op == BoolOp::Intersection { Bounds::ALL } else { Bounds::EMPTY };
+        let mut bounded = Bounds::EMPTY;
+        for (i, child) in children.iter().enumerate() {
+            let child = self.solid(child, map, part, negated ^ (op == BoolOp::Difference && i > 0));
+            whole.add(child.whole);
+            outer.add(child.outer);
+            bounded = bounded.union(child.bounded);
+            match op {
+                BoolOp::Union => bounds = bounds.union(child.bounds),
+                BoolOp::Intersection => bounds = bounds.intersection(child.bounds),
+                BoolOp::Difference if i == 0 => bounds = child.bounds,
+                BoolOp::Difference => {}
+            }
+        }
         if op == BoolOp::Intersection && !bounds.has_volume() {
             // Boxes that only touch, or not even that, hold nothing in common.
+            self.whole.close_as(whole, negated);
+            self.outer.close_as(outer, negated);
             return Lowered::constant(negated);
         }
-        let expr_op = if op == BoolOp::Union { Op::Or } else { Op::And }.under(negated);
-        let bounded = match bounds.is_bounded() {
-            true => bounds,
-            false => children.iter().fold(Bounds::EMPTY, |all, c| all.union(c.bounded)),
-        };
-        let (wholes, outers): (Vec<Expr>, Vec<Expr>) = children.into_iter().map(|c| (c.whole, c.outer)).unzip();
-        let whole = Expr::combine(expr_op, wholes);
-        let outer = if bounds.is_bounded() { Expr::Constant(negated) } else { Expr::combine(expr_op, outers) };
-        Lowered { whole, outer, bounds, bounded }
+        let whole = self.whole.close(whole);
+        if bounds.is_bounded() {
+            return Lowered { whole, outer: self.outer.close_as(outer, negated), bounds, bounded: bounds };
+        }
+        Lowered { whole, outer: self.outer.close(outer), bounds, bounded }
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine, part: Option<PartId>, negated: bool) -> Lowered {
@@ -188,7 +193,8 @@ impl Lowering {
         }
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
-        let mut faces = FaceList { map, inverse, faces: Vec::new() };
+        let first_face = self.faces.len();
+        let mut faces = FaceList { map, inverse, faces: &mut self.faces };
         let mut concave = None;
         match primitive {
             Primitive::Block => faces.block(),
@@ -203,7 +209,7 @@ impl Lowering {
             Primitive::Torus { minor } => faces.torus(*minor),
             Primitive::Polyhedron(polyhedron) => {
                 faces.polyhedron(polyhedron);
-                if faces.faces.is_empty() {
+                if faces.faces.len() == first_face {
                     return Lowered::constant(negated);
                 }
                 let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
@@ -212,32 +218,31 @@ impl Lowering {
                 }
             }
         }
-        let first_face = self.faces.len();
-        let literals: Vec<Expr> = match concave {
+        let faces = first_face..self.faces.len();
+        let first_literal = self.literals.len() as u32;
+        match concave {
             Some(polyhedron) => {
                 let mesh = PendingMesh { polyhedron: Arc::clone(polyhedron), map: *map, first_face };
                 self.meshes.push(mesh);
-                vec![self.literal(Shape::Mesh(self.meshes.len() as u32 - 1), leaf, negated)]
+                self.literals.push(PendingLiteral { shape: Shape::Mesh(self.meshes.len() as u32 - 1), leaf });
             }
-            None => (0..faces.faces.len())
-                .map(|i| self.literal(Shape::Face((first_face + i) as u32), leaf, negated))
-                .collect(),
+            None => self.literals.extend(faces.map(|face| {
+                let shape = Shape::Face(face as u32);
+                PendingLiteral { shape, leaf }
+            })),
+        }
+        let literals = first_literal..self.literals.len() as u32;
+        let mut whole = self.whole.open(Op::And.under(negated));
+        for index in literals.clone() {
+            whole.add(self.whole.literal(index, negated));
+        }
+        let whole = self.whole.close(whole);
+        let is_bounded = bounds.is_bounded();
+        let outer = match literals.len() {
+            1 if !is_bounded => self.outer.literal(first_literal, negated),
+            _ => Value::Constant(negated),
         };
-        self.faces.append(&mut faces.faces);
-        let outer = match (bounds.is_bounded(), &literals[..]) {
-            (false, &[Expr::Literal { index, negated }]) => Expr::Literal { index, negated },
-            _ => Expr::Constant(negated),
-        };
-        let bounded = if bounds.is_bounded() { bounds } else { Bounds::EMPTY };
-        Lowered { whole: Expr::combine(Op::And.under(negated), literals), outer, bounds, bounded }
-    }
-}
-
-impl Lowering {
-    fn literal(&mut self, shape: Shape, leaf: u32, negated: bool) -> Expr {
-        let index = self.literals.len() as u32;
-        self.literals.push(PendingLiteral { shape, leaf });
-        Expr::Literal { index, negated }
+        Lowered { whole, outer, bounds, bounded: if is_bounded { bounds } else { Bounds::EMPTY } }
     }
 }
 
@@ -262,7 +267,7 @@ fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bou
 struct FaceList<'a> {
     map: &'a Affine,
     inverse: Affine,
-    faces: Vec<Face>,
+    faces: &'a mut Vec<Face>,
 }
 
 impl FaceList<'_> {

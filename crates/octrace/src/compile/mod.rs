@@ -1,20 +1,25 @@
 //! From the CSG tree to a program: what is evaluated along rays and simplified in cells.
 
-mod expr;
+mod draft;
 mod face;
 mod intern;
+mod items;
+mod known;
 mod lower;
 mod place;
 mod repeats;
 mod simplify;
+mod split;
 mod text;
 mod words;
 
-pub(crate) use expr::Op;
+pub(crate) use draft::Op;
 pub use intern::CompileReport;
+pub use items::{Items, Lattice, LatticeCell};
 pub use lower::{Compiled, compile};
 pub use repeats::without_repeats;
 pub use simplify::{Simplified, Simplifier};
+pub use split::{Boxes, Entry, Split, Splitter};
 pub use text::program_text;
 pub use words::{Word, nesting, node_end};
 

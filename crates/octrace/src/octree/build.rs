@@ -1,13 +1,13 @@
 //! Building: every cell hands its children only what survived in it.
 
 use super::subtree::Subtree;
+use super::worker::{Place, Reduced, Worker};
 use super::{CellWord, Octree};
-use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier, Word, without_repeats};
+use crate::compile::{Boxes, Catalog, Constant, Entry, Items, Lattice, LatticeCell, Program, without_repeats};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
-use crate::surface::CellBox;
+use crate::surface::Octants;
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// When to stop cutting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,34 +72,42 @@ pub fn build(
     };
 
     exec.progress.begin("building the octree", PROGRESS_STEPS);
+    let words = without_repeats(catalog, words);
+    let lattice = Lattice { corner: center - Vec3::splat(half), edge: 2.0 * half, margin: 2.0 * margin };
+    let entries = words.iter().map(|&word| Entry::new(catalog, word)).collect();
+    let items = Items::new(catalog, entries, &lattice);
+    let mut worker = Worker::new(items.program());
+    let boxes = Boxes { octants: Octants::all(&octree.grown(center, half)), items: Some((&items, LatticeCell::WHOLE)) };
+    let whole = 0..worker.stack.len();
+    let split = worker.splitter.split(catalog, &mut worker.stack, whole, &boxes, 1);
+    let budget = match options.depth {
+        Some(_) => u64::MAX,
+        None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * split.words[0] as u64,
+    };
     let builder = Builder {
         catalog,
-        octree: &octree,
+        items: &items,
+        margin,
         leaf_surfaces: options.leaf_surfaces,
         depth,
         by_cost: options.depth.is_none(),
         exec,
     };
-    let mut simplifier = Simplifier::default();
-    let mut reduced = Vec::new();
-    let words = without_repeats(catalog, words);
-    let result = match simplifier.simplify(catalog, &words, &octree.grown(center, half), &mut reduced) {
-        Simplified::Constant(inside) => Ok(Subtree::constant(inside)),
-        Simplified::Reduced => {
-            let budget = match options.depth {
-                Some(_) => u64::MAX,
-                None => MOST_WORDS_READ_AT_LEAST + MOST_WORDS_READ * reduced.len() as u64,
-            };
-            builder.top_cell(&reduced, Place { center, half, level: 0 }, budget)
+    let result = match split.constant(0) {
+        Some(inside) => Ok(Part::constant(inside)),
+        None => {
+            let place = Place { center, half, on_lattice: LatticeCell::ROOT, level: 0 };
+            builder.top_cell(&worker.stack, Reduced::of(&split, 0), place, budget)
         }
     };
     exec.progress.end();
-    let tree = result?;
-    octree.root = tree.root;
+    let part = result?;
+    let mut tree = Subtree::default();
+    octree.surfaces_classified = worker.splitter.classified + part.classified;
+    octree.root = part.assemble(&mut tree);
     octree.branches = tree.branches;
     octree.programs = tree.programs;
     octree.depth = tree.depth;
-    octree.surfaces_classified = tree.classified + simplifier.classified;
     Ok(Some(octree))
 }
 
@@ -118,184 +126,72 @@ const MOST_WORDS_READ: u64 = 4000;
 const MOST_WORDS_READ_AT_LEAST: u64 = 1 << 18;
 
 /// Progress is counted in cells of this level.
-const PROGRESS_LEVEL: u32 = 3;
+pub(super) const PROGRESS_LEVEL: u32 = 3;
 const PROGRESS_STEPS: u64 = 1 << (3 * PROGRESS_LEVEL);
-/// Cells above this level are built in parallel, each child for itself.
-const PARALLEL_LEVELS: u32 = 3;
-
-/// Where a cell is.
-#[derive(Clone, Copy)]
-struct Place {
-    center: Vec3,
-    half: f64,
-    level: u32,
-}
-
-impl Place {
-    fn child(self, octant: usize) -> Self {
-        let half = self.half / 2.0;
-        Self { center: Octree::child_center(self.center, half, octant), half, level: self.level + 1 }
-    }
-}
+/// Children of cells with so many words are built in parallel.
+const PARALLEL_WORDS: usize = 1024;
 
 /// How many words are read to cut a cell.
-fn cost_of_cutting(words: &[u32]) -> u64 {
-    8 * words.len() as u64
+pub(super) fn cost_of_cutting(words: usize) -> u64 {
+    8 * words as u64
 }
 
 /// The part of a budget for a child with so many words of all.
-fn share(budget: u64, words: usize, all: usize) -> u64 {
+pub(super) fn share(budget: u64, words: usize, all: usize) -> u64 {
     (u128::from(budget) * words as u128 / all.max(1) as u128) as u64
 }
 
-struct Builder<'a> {
-    catalog: &'a Catalog,
-    /// Only for its geometry.
-    octree: &'a Octree,
-    leaf_surfaces: usize,
-    depth: u32,
+/// What all workers share.
+pub(super) struct Builder<'a> {
+    pub catalog: &'a Catalog,
+    pub items: &'a Items,
+    pub margin: f64,
+    pub leaf_surfaces: usize,
+    pub depth: u32,
     /// Whether cells are cut only where that is expected to pay.
-    by_cost: bool,
-    exec: &'a Exec,
+    pub by_cost: bool,
+    pub exec: &'a Exec,
 }
 
 impl Builder<'_> {
-    /// Builds a cell near the root: its children in parallel.
-    fn top_cell(&self, words: &[u32], place: Place, budget: u64) -> Result<Subtree, Cancelled> {
-        self.exec.cancel.check()?;
-        if self.is_leaf(words, place.level, budget) {
+    /// Builds a cell whose program is on that stack; if it is a long one, its children in parallel.
+    fn top_cell(&self, stack: &[Entry], reduced: Reduced, place: Place, budget: u64) -> Result<Part, Cancelled> {
+        let mut worker = Worker::new(stack[reduced.range.clone()].to_vec());
+        let mut reduced = Reduced { range: 0..reduced.range.len(), ..reduced };
+        if reduced.words < PARALLEL_WORDS {
+            let root = worker.cell(self, reduced, place, budget)?;
+            return Ok(Part { cells: Cells::Tree(worker.tree, root), classified: worker.splitter.classified });
+        }
+        let Some(split) = worker.cut(self, &mut reduced, place, budget)? else {
+            let root = worker.tree.leaf(&worker.stack[reduced.range], place.level);
             self.advance(place.level);
-            return Ok(Subtree::leaf(words, place.level));
-        }
-        let mut tree = Subtree::constant(false);
-        if place.level >= PARALLEL_LEVELS {
-            let mut simplifier = Simplifier::default();
-            let mut stack = words.to_vec();
-            let end = stack.len();
-            tree.root = self.cell(&mut tree, &mut simplifier, &mut stack, 0..end, place, budget)?;
-            tree.classified = simplifier.classified;
-            return Ok(tree);
-        }
-        let simplified: Vec<(Simplified, Vec<u32>, u64)> = (0..8)
+            return Ok(Part { cells: Cells::Tree(worker.tree, root), classified: worker.splitter.classified });
+        };
+        let left = budget - cost_of_cutting(reduced.words);
+        let all = split.words.iter().sum();
+        let children: Vec<Result<Part, Cancelled>> = (0..8)
             .into_par_iter()
-            .map(|octant| {
-                let mut reduced = Vec::new();
-                let mut simplifier = Simplifier::default();
-                let cell = self.grown(place.child(octant));
-                let simplified = simplifier.simplify(self.catalog, words, &cell, &mut reduced);
-                (simplified, reduced, simplifier.classified)
+            .map(|octant| match split.constant(octant) {
+                Some(inside) => {
+                    self.advance(place.level + 1);
+                    Ok(Part::constant(inside))
+                }
+                None => {
+                    let budget = share(left, split.words[octant], all);
+                    self.top_cell(&worker.stack, Reduced::of(&split, octant), place.child(octant), budget)
+                }
             })
             .collect();
-        let lengths: Vec<usize> = simplified.iter().map(|(_, reduced, _)| reduced.len()).collect();
-        if !self.pays(words.len(), lengths.iter().copied()) {
-            let mut tree = Subtree::leaf(words, place.level);
-            tree.classified = simplified.iter().map(|(_, _, classified)| classified).sum();
-            self.advance(place.level);
-            return Ok(tree);
-        }
-        let left = budget - cost_of_cutting(words);
-        let all: usize = lengths.iter().sum();
-        let children: Vec<Result<Subtree, Cancelled>> = simplified
-            .into_par_iter()
-            .enumerate()
-            .map(|(octant, (simplified, reduced, classified))| {
-                let mut child = match simplified {
-                    Simplified::Constant(inside) => {
-                        self.advance(place.level + 1);
-                        Subtree::constant(inside)
-                    }
-                    Simplified::Reduced => {
-                        self.top_cell(&reduced, place.child(octant), share(left, reduced.len(), all))?
-                    }
-                };
-                child.classified += classified;
-                Ok(child)
-            })
-            .collect();
-        let index = tree.branches.len();
-        tree.branches.push([CellWord::OUTSIDE; 8]);
-        for (octant, child) in children.into_iter().enumerate() {
-            let word = tree.adopt(child?);
-            tree.branches[index][octant] = word;
-        }
-        tree.root = tree.join(index);
-        Ok(tree)
-    }
-
-    /// Builds a cell whose program is the range `program` of `stack`; leaves the stack as it was.
-    fn cell(
-        &self,
-        tree: &mut Subtree,
-        simplifier: &mut Simplifier,
-        stack: &mut Vec<u32>,
-        program: Range<usize>,
-        place: Place,
-        budget: u64,
-    ) -> Result<CellWord, Cancelled> {
-        let words = &stack[program.clone()];
-        if self.is_leaf(words, place.level, budget) {
-            tree.depth = tree.depth.max(place.level);
-            self.advance(place.level);
-            return Ok(tree.intern(words));
-        }
-        self.exec.cancel.check()?;
-        let left = budget - cost_of_cutting(words);
-        let bottom = stack.len();
-        let mut reduced = Vec::new();
-        let mut children = [CellWord::OUTSIDE; 8];
-        let mut ranges: [Range<usize>; 8] = Default::default();
-        for (octant, range) in ranges.iter_mut().enumerate() {
-            reduced.clear();
-            let cell = self.grown(place.child(octant));
-            match simplifier.simplify(self.catalog, &stack[program.clone()], &cell, &mut reduced) {
-                Simplified::Constant(inside) => {
-                    children[octant] = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
-                }
-                Simplified::Reduced => {
-                    *range = stack.len()..stack.len() + reduced.len();
-                    stack.extend_from_slice(&reduced);
-                }
-            }
-        }
-        if !self.pays(program.len(), ranges.iter().map(Range::len)) {
-            stack.truncate(bottom);
-            tree.depth = tree.depth.max(place.level);
-            self.advance(place.level);
-            return Ok(tree.intern(&stack[program]));
-        }
-        let all = stack.len() - bottom;
-        let index = tree.branches.len();
-        tree.branches.push(children);
-        for (octant, range) in ranges.into_iter().enumerate() {
-            if range.is_empty() {
-                self.advance(place.level + 1);
-                continue;
-            }
-            let budget = share(left, range.len(), all);
-            let word = self.cell(tree, simplifier, stack, range, place.child(octant), budget)?;
-            tree.branches[index][octant] = word;
-        }
-        stack.truncate(bottom);
-        if place.level == PROGRESS_LEVEL {
-            self.exec.progress.advance(1);
-        }
-        Ok(tree.join(index))
-    }
-
-    /// The cell's box with its margin.
-    fn grown(&self, place: Place) -> CellBox {
-        self.octree.grown(place.center, place.half)
+        let children = children.into_iter().collect::<Result<Vec<Part>, Cancelled>>()?;
+        let classified = worker.splitter.classified + children.iter().map(|child| child.classified).sum::<u64>();
+        Ok(Part { cells: Cells::Branch(children), classified })
     }
 
     /// Counts a finished cell that is not cut: as many steps as it has cells of the progress level.
-    fn advance(&self, level: u32) {
+    pub fn advance(&self, level: u32) {
         if level <= PROGRESS_LEVEL {
             self.exec.progress.advance(1 << (3 * (PROGRESS_LEVEL - level)));
         }
-    }
-
-    fn is_leaf(&self, words: &[u32], level: u32, budget: u64) -> bool {
-        level >= self.depth || cost_of_cutting(words) > budget || self.surfaces_at_most(words)
     }
 
     /// Whether rays are expected to be faster in the children, whose programs have those lengths (0 where a child is all
@@ -303,33 +199,51 @@ impl Builder<'_> {
     ///
     /// A ray that meets a cube meets each of its octants with a probability of 1/4 (Cauchy: the ratio of surfaces), and some
     /// end before they get there.
-    fn pays(&self, words: usize, children: impl Iterator<Item = usize>) -> bool {
+    pub fn pays(&self, words: usize, children: [usize; 8]) -> bool {
         /// A step to the next cell takes as long as so many words of a program.
         const STEP: f64 = 2.0;
         /// The share of rays through a cell that get to a certain child.
         const REACHED: f64 = 0.2;
         /// With longer programs there is always something to gain, if not at once.
         const LONG: usize = 64;
-        let cut = REACHED * children.map(|words| STEP + words as f64).sum::<f64>();
+        let cut = REACHED * children.iter().map(|&words| STEP + words as f64).sum::<f64>();
         !self.by_cost || words > LONG || cut < STEP + words as f64
     }
+}
 
-    /// Whether a program has no more different surfaces than a leaf may.
-    fn surfaces_at_most(&self, words: &[u32]) -> bool {
-        let mut seen = [0; BuildOptions::MAX_LEAF_SURFACES];
-        let mut count = 0;
-        for &word in words {
-            if let Word::Literal { index, .. } = Word::decode(word) {
-                let surface = self.catalog.literals[index as usize].surface;
-                if !seen[..count].contains(&surface) {
-                    if count == self.leaf_surfaces.min(seen.len()) {
-                        return false;
-                    }
-                    seen[count] = surface;
-                    count += 1;
+/// A part of the tree, and how often a surface was classified to build it.
+struct Part {
+    cells: Cells,
+    classified: u64,
+}
+
+enum Cells {
+    /// With its root.
+    Tree(Subtree, CellWord),
+    /// The eight parts of a branch.
+    Branch(Vec<Part>),
+}
+
+impl Part {
+    /// A part of one cell, all inside or all outside.
+    fn constant(inside: bool) -> Self {
+        let root = if inside { CellWord::INSIDE } else { CellWord::OUTSIDE };
+        Self { cells: Cells::Tree(Subtree::default(), root), classified: 0 }
+    }
+
+    /// Moves everything into one tree; returns the root.
+    fn assemble(self, tree: &mut Subtree) -> CellWord {
+        match self.cells {
+            Cells::Tree(part, root) => tree.adopt(part, root),
+            Cells::Branch(children) => {
+                let index = tree.branches.len();
+                tree.branches.push([CellWord::OUTSIDE; 8]);
+                for (octant, child) in children.into_iter().enumerate() {
+                    let word = child.assemble(tree);
+                    tree.branches[index][octant] = word;
                 }
+                tree.join(index)
             }
         }
-        true
     }
 }

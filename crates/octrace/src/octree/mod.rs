@@ -3,6 +3,7 @@
 
 mod build;
 mod subtree;
+mod worker;
 
 pub use build::{BuildOptions, build};
 

@@ -1,43 +1,23 @@
 //! Parts of an octree under construction.
 
 use super::{CellWord, Kind};
-use crate::compile::node_end;
-use std::collections::HashMap;
+use crate::compile::Entry;
+use hashbrown::HashTable;
+use rustc_hash::FxHasher;
+use std::hash::Hasher;
 
 /// A part of the tree with tables of its own.
+#[derive(Default)]
 pub(super) struct Subtree {
-    pub root: CellWord,
     pub branches: Vec<[CellWord; 8]>,
     pub programs: Vec<u32>,
     /// Offsets of the programs so far; equal ones are stored once.
-    interned: HashMap<Box<[u32]>, u32>,
+    interned: HashTable<u32>,
     /// Levels below the root of the whole tree.
     pub depth: u32,
-    /// How often a surface was classified.
-    pub classified: u64,
 }
 
 impl Subtree {
-    /// A subtree of one cell, all inside or all outside.
-    pub fn constant(inside: bool) -> Self {
-        Self {
-            root: if inside { CellWord::INSIDE } else { CellWord::OUTSIDE },
-            branches: Vec::new(),
-            programs: Vec::new(),
-            interned: HashMap::new(),
-            depth: 0,
-            classified: 0,
-        }
-    }
-
-    /// A subtree of one leaf.
-    pub fn leaf(words: &[u32], level: u32) -> Self {
-        let mut tree = Self::constant(false);
-        tree.root = tree.intern(words);
-        tree.depth = level;
-        tree
-    }
-
     /// The word for the branch just finished: if all its children are empty, or all full, it is what they are, and goes.
     pub fn join(&mut self, index: usize) -> CellWord {
         let children = self.branches[index];
@@ -50,34 +30,46 @@ impl Subtree {
     }
 
     /// The word for a leaf with that program.
-    pub fn intern(&mut self, program: &[u32]) -> CellWord {
-        if let Some(&offset) = self.interned.get(program) {
-            return CellWord::leaf(offset);
+    pub fn leaf(&mut self, program: &[Entry], level: u32) -> CellWord {
+        self.depth = self.depth.max(level);
+        let offset = self.programs.len();
+        self.programs.extend(program.iter().map(|entry| entry.word));
+        let (known, new) = self.programs.split_at(offset);
+        // A program's own words tell where it ends: none is the beginning of another.
+        let equal = |&other: &u32| known[other as usize..].starts_with(new);
+        if let Some(&other) = self.interned.find(hash(new), equal) {
+            self.programs.truncate(offset);
+            return CellWord::leaf(other);
         }
-        let offset = self.programs.len() as u32;
-        self.programs.extend_from_slice(program);
-        self.interned.insert(program.into(), offset);
-        CellWord::leaf(offset)
+        let len = new.len();
+        let programs = &self.programs;
+        let rehash = |&other: &u32| {
+            let start = other as usize;
+            hash(&programs[start..crate::compile::node_end(programs, start)])
+        };
+        self.interned.insert_unique(hash(&programs[offset..offset + len]), offset as u32, rehash);
+        CellWord::leaf(offset as u32)
     }
 
-    /// Takes over another subtree's tables; returns its root as seen from here.
-    pub fn adopt(&mut self, other: Subtree) -> CellWord {
-        let first_branch = self.branches.len() as u32;
-        let mut moved: HashMap<u32, CellWord> = HashMap::new();
-        let mut relocate = |tree: &mut Self, word: CellWord| match word.kind() {
+    /// Takes over another subtree's tables; returns its root, given as seen from there, as seen from here.
+    pub fn adopt(&mut self, other: Subtree, root: CellWord) -> CellWord {
+        let (first_branch, first_word) = (self.branches.len() as u32, self.programs.len() as u32);
+        let moved = |word: CellWord| match word.kind() {
             Kind::Branch(index) => CellWord::branch(first_branch + index),
-            Kind::Leaf(offset) => *moved.entry(offset).or_insert_with(|| {
-                let start = offset as usize;
-                tree.intern(&other.programs[start..node_end(&other.programs, start)])
-            }),
+            Kind::Leaf(offset) => CellWord::leaf(first_word + offset),
             Kind::Outside | Kind::Inside => word,
         };
-        for branch in &other.branches {
-            let branch = branch.map(|word| relocate(self, word));
-            self.branches.push(branch);
-        }
+        self.branches.extend(other.branches.iter().map(|branch| branch.map(moved)));
+        self.programs.extend_from_slice(&other.programs);
         self.depth = self.depth.max(other.depth);
-        self.classified += other.classified;
-        relocate(self, other.root)
+        moved(root)
     }
+}
+
+fn hash(words: &[u32]) -> u64 {
+    let mut hasher = FxHasher::default();
+    for &word in words {
+        hasher.write_u32(word);
+    }
+    hasher.finish()
 }

@@ -5,11 +5,15 @@
 //! answers can be compared bit for bit.
 
 mod crossings;
+mod extent;
+mod octants;
 mod plane;
 mod quadric;
 mod torus;
 
 pub use crossings::{Crossings, Sides};
+pub(crate) use octants::halves;
+pub use octants::{OctantSides, Octants};
 pub use plane::Plane;
 pub use quadric::{Quadric, QuadricKind};
 pub use torus::Torus;

@@ -36,20 +36,30 @@ impl QuadricKind {
         }
     }
 
+    /// What a square, or a product, of z coordinates counts in the equation.
+    #[inline(always)]
+    fn of_z(self, product: f64) -> f64 {
+        match self {
+            Self::Sphere => product,
+            Self::Cylinder => 0.0,
+            Self::Cone => -product,
+        }
+    }
+
     /// Where the line `o + t d` crosses the quadric, all in its own coordinates.
     fn crossings(self, o: Vec3, d: Vec3) -> Crossings {
-        let (s, c0) = self.coefficients();
+        let (_, c0) = self.coefficients();
         // f(o + t d) = a t² + 2 b t + c.
-        let a = d.x * d.x + d.y * d.y + s * (d.z * d.z);
-        let b = o.x * d.x + o.y * d.y + s * (o.z * d.z);
-        let c = o.x * o.x + o.y * o.y + s * (o.z * o.z) + c0;
+        let a = d.x * d.x + d.y * d.y + self.of_z(d.z * d.z);
+        let b = o.x * d.x + o.y * d.y + self.of_z(o.z * d.z);
+        let c = o.x * o.x + o.y * o.y + self.of_z(o.z * o.z) + c0;
         if a == 0.0 {
             return if b == 0.0 { Crossings::none(c < 0.0) } else { Crossings::one(b > 0.0, -c / (2.0 * b)) };
         }
         // b² - a c, without the cancellation that far origins cause: by Lagrange's identity the quartic parts are the
         // square of the cross product.
         let m = o.cross(d);
-        let discriminant = -c0 * a - (m.z * m.z + s * (m.x * m.x + m.y * m.y));
+        let discriminant = -c0 * a - (m.z * m.z + self.of_z(m.x * m.x + m.y * m.y));
         if !(discriminant > 0.0 && discriminant.is_finite()) {
             // f keeps its sign: that of the direction's own value a as well as that of the origin's value c. Rounding may
             // part the two, for lines parallel to a cone's generator above all. The clearer one tells.

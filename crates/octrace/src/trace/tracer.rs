@@ -12,7 +12,7 @@ use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
 use crate::model::{PartId, Solid};
 use crate::octree::Octree;
-use crate::surface::{CellBox, Side};
+use crate::surface::{CellBox, Side, Surface};
 use crate::traverse::Traversal;
 
 /// Scratch memory of a worker, and what it counted.
@@ -44,6 +44,8 @@ pub struct SurfacePoint {
 pub struct Tracer {
     pub(super) catalog: Catalog,
     pub(super) bodies: Vec<Body>,
+    /// Whether all surfaces are planes and quadrics.
+    pub(super) only_plain: bool,
     report: CompileReport,
     bounds: Bounds,
 }
@@ -70,7 +72,9 @@ impl Tracer {
             .into_iter()
             .map(|program| Body::build(program, &catalog, options, exec))
             .collect::<Result<_, Cancelled>>()?;
-        Ok(Self { catalog, bodies, report: compiled.report, bounds })
+        let is_plain = |surface: &Surface| matches!(surface, Surface::Plane(_) | Surface::Quadric(_));
+        let only_plain = catalog.surfaces.iter().all(is_plain);
+        Ok(Self { catalog, bodies, only_plain, report: compiled.report, bounds })
     }
 
     /// How many bodies there are.

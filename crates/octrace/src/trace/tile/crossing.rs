@@ -3,6 +3,7 @@
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
 use crate::geom::{Affine, Ray, Vec3};
 use crate::surface::{Crossings, Plane, Quadric, QuadricKind, Surface};
+use std::ops::{Add, Sub};
 
 /// Eight rays, from one origin or from eight.
 #[derive(Clone, Copy)]
@@ -131,61 +132,86 @@ pub(super) fn plane<I: Isa, N: Number<I>>(plane: &Plane, rays: &Rays<I, N>) -> C
 /// As [`Quadric::crossings`].
 #[inline(always)]
 pub(super) fn quadric<I: Isa, N: Number<I>>(quadric: &Quadric, rays: &Rays<I, N>) -> Crossed<I> {
-    let origin = point(&quadric.to_local, rays.origin);
+    let o = point(&quadric.to_local, rays.origin);
     let d = vector(&quadric.to_local, rays.direction);
-    let (s, c0) = quadric.kind.coefficients();
-    match quadric.kind {
+    // Each kind is compiled by itself.
+    let crossed = match quadric.kind {
+        QuadricKind::Sphere => solved::<I, N, Sphere>(o, d),
+        QuadricKind::Cylinder => solved::<I, N, Cylinder>(o, d),
         QuadricKind::Cone => {
-            let origin = origin.map(Number::lanes);
-            let nearest = -origin.dot(d) / d.dot(d);
-            let step = d.map(|v| v * nearest);
-            let o = Vector::new(origin.x + step.x, origin.y + step.y, origin.z + step.z);
-            solved(quadric, o, d, (s, c0), rays, Some(nearest))
+            let o = o.map(Number::lanes);
+            let nearest = -o.dot(d) / d.dot(d);
+            let o = Vector::new(o.x + d.x * nearest, o.y + d.y * nearest, o.z + d.z * nearest);
+            let (mut crossed, usual) = solved::<I, F64s<I>, Cone>(o, d);
+            (crossed.a, crossed.b) = (crossed.a + nearest, crossed.b + nearest);
+            (crossed, usual & (crossed.a.is_finite() & crossed.b.is_finite()))
         }
-        QuadricKind::Sphere | QuadricKind::Cylinder => solved(quadric, origin, d, (s, c0), rays, None),
+    };
+    let (mut crossed, usual) = crossed;
+    if !usual.all() {
+        crossed.set(!usual.bits(), |lane| quadric.crossings(&rays.lane(lane)));
     }
+    crossed
 }
 
-/// The crossings of `o + t d`, in local coordinates; `nearest` is what is to be added to the parameters of a cone.
+/// A kind of quadric, known when compiling.
+trait Kind {
+    const KIND: QuadricKind;
+}
+
+struct Sphere;
+struct Cylinder;
+struct Cone;
+
+impl Kind for Sphere {
+    const KIND: QuadricKind = QuadricKind::Sphere;
+}
+
+impl Kind for Cylinder {
+    const KIND: QuadricKind = QuadricKind::Cylinder;
+}
+
+impl Kind for Cone {
+    const KIND: QuadricKind = QuadricKind::Cone;
+}
+
+/// The crossings of `o + t d`, in local coordinates; and in which lanes they are as usual.
 #[inline(always)]
-fn solved<I: Isa, N: Number<I>, M: Number<I>>(
-    quadric: &Quadric,
-    o: Vector<M>,
-    d: Vector<F64s<I>>,
-    (s, c0): (f64, f64),
-    rays: &Rays<I, N>,
-    nearest: Option<F64s<I>>,
-) -> Crossed<I> {
-    let c = (o.x * o.x + o.y * o.y + M::from_one(s) * (o.z * o.z) + M::from_one(c0)).lanes();
-    let o = o.map(Number::lanes);
-    let (s, c0) = (F64s::splat(s), F64s::splat(c0));
-    let a = d.x * d.x + d.y * d.y + s * (d.z * d.z);
-    let b = o.x * d.x + o.y * d.y + s * (o.z * d.z);
+fn solved<I: Isa, N: Number<I>, K: Kind>(o: Vector<N>, d: Vector<F64s<I>>) -> (Crossed<I>, Mask<I>) {
+    let (_, c0) = K::KIND.coefficients();
+    let c = plus_z::<N, K>(o.x * o.x + o.y * o.y, o.z * o.z) + N::from_one(c0);
+    let (c, o) = (c.lanes(), o.map(Number::lanes));
+    let a = plus_z::<F64s<I>, K>(d.x * d.x + d.y * d.y, d.z * d.z);
+    let b = plus_z::<F64s<I>, K>(o.x * d.x + o.y * d.y, o.z * d.z);
     let m = o.cross(d);
-    let discriminant = -c0 * a - (m.z * m.z + s * (m.x * m.x + m.y * m.y));
+    let moment = plus_z::<F64s<I>, K>(m.z * m.z, m.x * m.x + m.y * m.y);
+    let discriminant = F64s::splat(-c0) * a - moment;
     let root = discriminant.sqrt();
     let q = b.gt(F64s::zero()).select(-b - root, root - b);
     let (t0, t1) = (q / a, c / q);
     let ordered = t0.le(t1);
-    let (first, second) = (ordered.select(t0, t1), ordered.select(t1, t0));
-    let (first, second) = match nearest {
-        Some(nearest) => (first + F64s::zero() + nearest, second + F64s::zero() + nearest),
-        None => (first + F64s::zero(), second + F64s::zero()),
-    };
+    let first = ordered.select(t0, t1) + F64s::zero();
+    let second = ordered.select(t1, t0) + F64s::zero();
     let met = discriminant.gt(F64s::zero());
-    let mut crossed = Crossed {
+    let crossed = Crossed {
         starts_inside: a.lt(F64s::zero()),
         a: met.select(first, F64s::infinity()),
         b: met.select(second, F64s::infinity()),
     };
     // A sphere and a cylinder are missed from outside; whatever else is not two crossings is for the code that knows.
-    let missed = match nearest {
-        Some(_) => Mask::splat(false),
-        None => discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero()),
+    let missed = match K::KIND {
+        QuadricKind::Cone => Mask::splat(false),
+        _ => discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero()),
     };
-    let usual = missed | (met & first.is_finite() & second.is_finite());
-    if !usual.all() {
-        crossed.set(!usual.bits(), |lane| quadric.crossings(&rays.lane(lane)));
+    (crossed, missed | (met & first.is_finite() & second.is_finite()))
+}
+
+/// Adds what products of z coordinates count.
+#[inline(always)]
+fn plus_z<N: Add<Output = N> + Sub<Output = N>, K: Kind>(rest: N, product: N) -> N {
+    match K::KIND {
+        QuadricKind::Sphere => rest + product,
+        QuadricKind::Cylinder => rest,
+        QuadricKind::Cone => rest - product,
     }
-    crossed
 }

@@ -51,7 +51,7 @@ impl Tiles<'_> {
         let size = (TILE_PX as u32, TILE_PX as u32);
         self.trace(corner, size, (0.5, 0.5), tile, scratch);
         self.backend.run(Shade { tiles: self, light, tile, pixels });
-        if !self.only_plain || !tile.alone.is_empty() {
+        if !self.tracer.only_plain || !tile.alone.is_empty() {
             self.shade_others(light, tile, pixels);
         }
     }

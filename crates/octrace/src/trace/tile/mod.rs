@@ -24,13 +24,13 @@ use super::roots::hit_of;
 use super::{Scratch, Tracer};
 use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
-use crate::surface::{CellBox, Side, Surface};
+use crate::surface::{CellBox, Side};
 use beam::Beam;
 use dispatch::Task;
 use lanes::{Isa, LANES, Stored};
 use packet::Packet;
 use program::Solved;
-use walk::{Common, Lead, Own, Scenery, Waiting, walk};
+use walk::{Chunk, Common, Lead, MAX_CUTS, Own, Scenery, Slab, Slabs, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
@@ -60,6 +60,8 @@ pub struct RayTile {
     from_eye: bool,
     waiting: [Waiting; Waiting::MOST],
     solved: Solved,
+    slabs: Slabs,
+    chunk: Option<Box<Chunk>>,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
     /// Rays of a stream, sorted by the signs of their directions.
@@ -74,6 +76,8 @@ impl Default for RayTile {
             from_eye: false,
             waiting: [Waiting::NOTHING; Waiting::MOST],
             solved: Solved::default(),
+            slabs: [Slab::NOTHING; MAX_CUTS + 1],
+            chunk: None,
             alone: Vec::new(),
             by_signs: Default::default(),
         }
@@ -87,8 +91,6 @@ pub struct Tiles<'a> {
     camera: CameraRays,
     /// For each body, whether rays set out outside of it.
     start_outside: Vec<bool>,
-    /// Whether there are planes and quadrics only.
-    only_plain: bool,
     backend: Backend,
 }
 
@@ -114,9 +116,7 @@ impl Tracer {
             Side::Crossing => None,
         });
         let start_outside = start_outside.collect::<Option<_>>()?;
-        let is_plain = |surface: &Surface| matches!(surface, Surface::Plane(_) | Surface::Quadric(_));
-        let only_plain = self.catalog.surfaces.iter().all(is_plain);
-        Some(Tiles { tracer: self, camera: *camera, start_outside, only_plain, backend })
+        Some(Tiles { tracer: self, camera: *camera, start_outside, backend })
     }
 }
 
@@ -222,6 +222,7 @@ impl Task for TraceTile<'_, '_> {
                 octree,
                 wanted: tiles.start_outside[number],
                 body: number as u32,
+                only_plain: tiles.tracer.only_plain,
             };
             match tiles.camera.orthographic {
                 true => walk::<I, Own>(&scenery, Lead::Beam, tile, scratch),

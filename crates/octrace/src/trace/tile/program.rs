@@ -70,7 +70,12 @@ pub(super) struct Changes<I: Isa> {
 #[inline(always)]
 pub(super) fn crossed<I: Isa, N: Number<I>>(catalog: &Catalog, word: u32, rays: &Rays<I, N>) -> Crossed<I> {
     let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
-    surface_of(catalog, word).map_or(Crossed::nowhere(), |surface| crossed_by(surface, rays)).negated(negated)
+    // Not a closure: those may be compiled by themselves, for registers that are not wide.
+    let crossed = match surface_of(catalog, word) {
+        Some(surface) => crossed_by(surface, rays),
+        None => Crossed::nowhere(),
+    };
+    crossed.negated(negated)
 }
 
 /// So many packets are solved for one program before it is looked at what follows.
@@ -157,10 +162,11 @@ pub(super) struct SolvedPacket<'a> {
 }
 
 impl SolvedPacket<'_> {
-    /// The first parameters `>= t` from which on the program is inside (`wanted`) or outside.
+    /// Parameters `>= t` before which the program is not inside (`wanted`), or outside; the very ones from which on it is,
+    /// unless it is nowhere near that simple. If they are `t`, it is there.
     #[inline(always)]
-    pub fn next<I: Isa>(&self, t: F64s<I>, wanted: bool) -> F64s<I> {
-        self.next_3(0, t, wanted)
+    pub fn bound<I: Isa>(&self, t: F64s<I>, wanted: bool) -> F64s<I> {
+        self.bound_3(0, t, wanted)
     }
 
     /// How the program's value changes at `t`; see [`Roots::change`](super::super::roots::Roots::change).
@@ -170,7 +176,7 @@ impl SolvedPacket<'_> {
     }
 
     #[inline(always)]
-    fn next_0<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
+    fn bound_0<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
         self.rows[at][self.slot].crossed().next(t, wanted)
     }
 
@@ -183,34 +189,26 @@ impl SolvedPacket<'_> {
 
 /// Functions for programs of one level more than those that they are made of.
 macro_rules! level {
-    ($next:ident, $changes:ident, $next_below:ident, $changes_below:ident) => {
+    ($bound:ident, $changes:ident, $bound_below:ident, $changes_below:ident) => {
         impl SolvedPacket<'_> {
             #[inline(always)]
-            fn $next<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
+            fn $bound<I: Isa>(&self, at: usize, t: F64s<I>, wanted: bool) -> F64s<I> {
                 let is_and = match Word::decode(self.words[at]) {
-                    Word::Literal { .. } => return self.next_0(at, t, wanted),
+                    Word::Literal { .. } => return self.bound_0(at, t, wanted),
                     Word::And { .. } => true,
                     Word::Or { .. } => false,
                 };
                 let end = node_end(self.words, at);
-                // One child is enough, or all must agree.
+                // One child is enough, or all must agree: then the last one counts.
                 let one = is_and != wanted;
-                let (mut t, mut least) = (t, F64s::infinity());
-                loop {
-                    let start = t;
-                    let mut child = at + 1;
-                    while child < end {
-                        let next = self.$next_below(child, t, wanted);
-                        (t, least) = if one { (t, least.min(next)) } else { (next, least) };
-                        child = node_end(self.words, child);
-                    }
-                    if one {
-                        return least;
-                    }
-                    if t.eq(start).all() {
-                        return t;
-                    }
+                let mut bound = if one { F64s::infinity() } else { t };
+                let mut child = at + 1;
+                while child < end {
+                    let next = self.$bound_below(child, t, wanted);
+                    bound = if one { bound.min(next) } else { bound.max(next) };
+                    child = node_end(self.words, child);
                 }
+                bound
             }
 
             #[inline(always)]
@@ -245,6 +243,6 @@ macro_rules! level {
     };
 }
 
-level!(next_1, changes_1, next_0, changes_0);
-level!(next_2, changes_2, next_1, changes_1);
-level!(next_3, changes_3, next_2, changes_2);
+level!(bound_1, changes_1, bound_0, changes_0);
+level!(bound_2, changes_2, bound_1, changes_1);
+level!(bound_3, changes_3, bound_2, changes_2);

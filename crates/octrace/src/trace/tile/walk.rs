@@ -26,6 +26,16 @@ pub(super) struct Scenery<'a> {
     pub wanted: bool,
     /// The body's number.
     pub body: u32,
+    /// Whether all surfaces are planes and quadrics.
+    pub only_plain: bool,
+}
+
+impl Scenery<'_> {
+    /// Whether all surfaces of a program can be crossed in lanes.
+    #[inline(always)]
+    fn is_plain(&self, words: &[u32]) -> bool {
+        self.only_plain || is_plain(self.catalog, words)
+    }
 }
 
 /// A cell that waits for its turn.
@@ -48,7 +58,7 @@ impl Waiting {
 const PRUNED_FOR: u32 = 6;
 
 /// A slab is cut in two so many times at most.
-const MAX_CUTS: usize = 4;
+pub(super) const MAX_CUTS: usize = 4;
 
 /// A cube.
 #[derive(Clone, Copy)]
@@ -58,8 +68,8 @@ struct Cube {
 }
 
 /// What lies between two depths of a leaf, for some parts of the beam.
-#[derive(Clone, Copy)]
-struct Slab {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slab {
     words: Pruned,
     near: f64,
     far: f64,
@@ -67,8 +77,11 @@ struct Slab {
     cuts: usize,
 }
 
+/// Slabs that wait for their turn.
+pub(super) type Slabs = [Slab; MAX_CUTS + 1];
+
 impl Slab {
-    const NOTHING: Self = Self { words: Pruned::NOTHING, near: 0.0, far: 0.0, parts: 0, cuts: 0 };
+    pub const NOTHING: Self = Self { words: Pruned::NOTHING, near: 0.0, far: 0.0, parts: 0, cuts: 0 };
 }
 
 /// How rays start: all from one point, or each from its own.
@@ -114,7 +127,7 @@ pub(super) enum Lead {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, waiting, solved, .. } = tile;
+    let RayTile { packets, beam, waiting, solved, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
@@ -122,6 +135,8 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &
         scratch,
         open: 0,
         solved,
+        slabs,
+        chunk,
         known: Known::nothing(),
         machine: PhantomData,
     };
@@ -147,6 +162,8 @@ struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     /// Packets with rays that have met nothing so far.
     open: u32,
     solved: &'b mut Solved,
+    slabs: &'b mut Slabs,
+    chunk: &'b mut Option<Box<Chunk>>,
     known: Known,
     machine: PhantomData<(I, O)>,
 }
@@ -311,12 +328,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         }
         let margin = self.scenery.octree.margin;
         let (near, far) = self.beam.depths(center, half + margin);
-        let mut slabs = [Slab::NOTHING; MAX_CUTS + 1];
-        slabs[0] = Slab { words: Pruned::new(words), near, far, parts: u8::MAX, cuts: 0 };
+        self.slabs[0] = Slab { words: Pruned::new(words), near, far, parts: u8::MAX, cuts: 0 };
         let mut count = 1;
         while count > 0 {
             count -= 1;
-            let Slab { words, near, far, parts, cuts } = slabs[count];
+            let Slab { words, near, far, parts, cuts } = self.slabs[count];
             let mut open = 0;
             for (part, part_packets) in PART_PACKETS.iter().enumerate() {
                 open |= u8::from(packets & self.open & part_packets != 0) << part;
@@ -345,8 +361,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             if crowded != 0 {
                 let words = self.known.pruned(words.words(), crowded);
                 let middle = 0.5 * (near + far);
-                slabs[count] = Slab { words, near: middle, far, parts: crowded, cuts: cuts + 1 };
-                slabs[count + 1] = Slab { words, near, far: middle, parts: crowded, cuts: cuts + 1 };
+                self.slabs[count] = Slab { words, near: middle, far, parts: crowded, cuts: cuts + 1 };
+                self.slabs[count + 1] = Slab { words, near, far: middle, parts: crowded, cuts: cuts + 1 };
                 count += 2;
             }
         }
@@ -355,7 +371,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Evaluates a leaf's program for those packets.
     fn evaluate(&mut self, words: &[u32], packets: u32, cube: Cube, depths: (f64, f64)) {
         match *words {
-            _ if !is_plain(self.scenery.catalog, words) => {
+            _ if !self.scenery.is_plain(words) => {
                 I::call(OneByOne { walk: self, words, packets, cube, depths });
             }
             [word] => I::call(Single { walk: self, word, packets, cube, depths }),
@@ -435,19 +451,27 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             let (t_in, t_out) = (F64s::load(&chunk.t_in[slot]), F64s::load(&chunk.t_out[slot]));
             self.scratch.counters.surface_tests += words.len() as u64 * u64::from(here.bits().count_ones());
             let solved = self.solved.packet(words, slot);
-            let from = here.select(t_in, F64s::infinity());
-            let t = solved.next::<I>(from, wanted);
-            let met = here & t.le(t_out) & t.lt(F64s::infinity());
-            if !met.any() {
-                continue;
-            }
-            let changes = solved.changes::<I>(t);
-            let sound = changes.before ^ changes.after;
-            let leaked = met & (sound ^ Mask::splat(true));
             let packet = &mut self.packets[chunk.numbers[slot] as usize];
-            packet.meet::<I>(met & sound, t, changes.words, self.scenery);
-            if leaked.any() {
-                packet.leak(leaked, t_in);
+            // Infinite for rays that are done.
+            let mut t = here.select(t_in, F64s::infinity());
+            loop {
+                t = solved.bound::<I>(t, wanted);
+                let pending = t.le(t_out) & t.lt(F64s::infinity());
+                if !pending.any() {
+                    break;
+                }
+                let changes = solved.changes::<I>(t);
+                let arrived = pending & (changes.after ^ Mask::splat(!wanted));
+                let turned = changes.before ^ changes.after;
+                packet.meet::<I>(arrived & turned, t, changes.words, self.scenery);
+                let leaked = arrived & !turned;
+                if leaked.any() {
+                    packet.leak(leaked, t_in);
+                }
+                if arrived.bits() == pending.bits() {
+                    break;
+                }
+                t = arrived.select(F64s::infinity(), t);
             }
         }
     }
@@ -492,11 +516,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let words = match &self.scenery.program.outer {
             Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
             Constant::Everywhere(_) => return,
-            Constant::Words(words) => {
-                Some(&**words).filter(|words| is_short(words) && is_plain(self.scenery.catalog, words))
-            }
+            Constant::Words(words) => Some(&**words).filter(|words| is_short(words) && self.scenery.is_plain(words)),
         };
-        let mut chunk = Chunk::default();
+        let mut chunk = self.chunk.take().unwrap_or_default();
+        chunk.count = 0;
         for number in bits_of(self.open) {
             let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
             let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
@@ -516,13 +539,14 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         if let Some(words) = words.filter(|_| chunk.count > 0) {
             I::call(Outer { walk: self, words, chunk: &chunk });
         }
+        *self.chunk = Some(chunk);
         self.count_open();
     }
 }
 
 /// Some packets' stretches.
-#[derive(Default)]
-struct Chunk {
+#[derive(Debug, Default)]
+pub(super) struct Chunk {
     count: usize,
     numbers: [u8; CHUNK],
     /// The rays that it is about.
@@ -575,7 +599,8 @@ struct Several<'a, 'b, 'c, I: Isa, O: Origins<I>> {
 impl<I: Isa, O: Origins<I>> Kernel for Several<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
-        let mut chunk = Chunk::default();
+        let mut chunk = self.walk.chunk.take().unwrap_or_default();
+        chunk.count = 0;
         for number in bits_of(self.packets) {
             let (here, stretch) = self.walk.crossing(number, self.cube, self.depths);
             if here.any() {
@@ -589,6 +614,7 @@ impl<I: Isa, O: Origins<I>> Kernel for Several<'_, '_, '_, I, O> {
         if chunk.count > 0 {
             self.walk.program(self.words, &chunk);
         }
+        *self.walk.chunk = Some(chunk);
     }
 }
 

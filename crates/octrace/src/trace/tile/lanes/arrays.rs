@@ -128,11 +128,6 @@ impl<const AVX2: bool> Isa for Arrays<AVX2> {
     }
 
     #[inline(always)]
-    fn eq(a: [f64; LANES], b: [f64; LANES]) -> Mask {
-        pairs(a, b, |a, b| mask(a == b))
-    }
-
-    #[inline(always)]
     fn select(mask: Mask, yes: [f64; LANES], no: [f64; LANES]) -> [f64; LANES] {
         std::array::from_fn(|i| if mask[i] != NO { yes[i] } else { no[i] })
     }

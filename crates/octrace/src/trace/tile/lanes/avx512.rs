@@ -48,7 +48,6 @@ impl Isa for Avx512 {
         max(a: __m512d, b: __m512d) -> __m512d = _mm512_max_pd(b, a);
         lt(a: __m512d, b: __m512d) -> __mmask8 = _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b);
         le(a: __m512d, b: __m512d) -> __mmask8 = _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b);
-        eq(a: __m512d, b: __m512d) -> __mmask8 = _mm512_cmp_pd_mask::<_CMP_EQ_OQ>(a, b);
         select(mask: __mmask8, yes: __m512d, no: __m512d) -> __m512d = _mm512_mask_blend_pd(mask, no, yes);
         differing(words: &[u32; LANES], other: u32) -> u8 = _mm256_cmpneq_epi32_mask(
             _mm256_loadu_si256(words.as_ptr().cast()),

@@ -58,7 +58,6 @@ pub(super) trait Isa: Copy {
     fn max(a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     fn lt(a: Self::Numbers, b: Self::Numbers) -> Self::Mask;
     fn le(a: Self::Numbers, b: Self::Numbers) -> Self::Mask;
-    fn eq(a: Self::Numbers, b: Self::Numbers) -> Self::Mask;
     fn select(mask: Self::Mask, yes: Self::Numbers, no: Self::Numbers) -> Self::Numbers;
     fn and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     fn or(a: Self::Mask, b: Self::Mask) -> Self::Mask;
@@ -196,11 +195,6 @@ impl<I: Isa> F64s<I> {
     #[inline(always)]
     pub fn ge(self, o: Self) -> Mask<I> {
         o.le(self)
-    }
-
-    #[inline(always)]
-    pub fn eq(self, o: Self) -> Mask<I> {
-        Mask(I::eq(self.0, o.0))
     }
 
     /// Which are numbers, and not infinite.
