@@ -40,5 +40,5 @@ def times(text: str) -> list[tuple[str, float, float]]:
 
 def version() -> str:
     done = subprocess.run(["povray", "--version"], capture_output=True, text=True)
-    found = re.search(r"POV-Ray [\d.]+", done.stdout + done.stderr)
+    found = re.search(r"POV-Ray \d+(\.\d+)+", done.stdout + done.stderr)
     return found[0] if found else "POV-Ray"
