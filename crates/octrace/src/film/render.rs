@@ -55,8 +55,9 @@ const TILE_PX: u32 = crate::trace::TILE_PX as u32;
 pub fn render(scene: &Scene, tracer: &Tracer, view: &View, exec: &Exec) -> Result<(Film, RenderStats), Cancelled> {
     let integrator = integrator(scene, tracer, view);
     let rays = view.camera.rays(view.width_px, view.height_px);
-    let together = tracer.tiles(&rays, (view.width_px, view.height_px), Backend::best());
-    let camera = TileCamera { tracer, rays, together };
+    let backend = Backend::best();
+    let together = tracer.tiles(&rays, (view.width_px, view.height_px), backend);
+    let camera = TileCamera { tracer, rays, backend, together };
     let (width, height) = (view.width_px, view.height_px);
     let tiles_across = width.div_ceil(TILE_PX);
     let tiles = tiles_across * height.div_ceil(TILE_PX);
@@ -125,6 +126,7 @@ impl AddAssign for RenderStats {
 struct TileCamera<'a> {
     tracer: &'a Tracer,
     rays: CameraRays,
+    backend: Backend,
     /// How tiles are traced together, if they can be.
     together: Option<Tiles<'a>>,
 }
@@ -164,21 +166,21 @@ impl Tile {
             }
             hits.clear();
             for (x, y) in (0..width * height).map(|index| (index % width, index / width)) {
-                let ray = camera.rays.ray(f64::from(left + x) + place.0, f64::from(top + y) + place.1);
-                let hit = match &camera.together {
-                    Some(tiles) => tiles.hit(rays, (x as usize, y as usize)),
-                    None => camera.tracer.first_body_hit(&ray, f64::INFINITY, scratch),
+                let at = (x as usize, y as usize);
+                let (ray, hit) = match &camera.together {
+                    Some(tiles) => (tiles.ray(rays, at), tiles.hit(rays, at)),
+                    None => {
+                        let ray = camera.rays.ray(f64::from(left + x) + place.0, f64::from(top + y) + place.1);
+                        (ray, camera.tracer.first_body_hit(&ray, f64::INFINITY, scratch))
+                    }
                 };
                 hits.push((ray, hit));
             }
-            let mut workshop = Workshop { tile: rays, scratch, counts: &mut stats.rays };
-            let mut sums = sums.iter_mut();
-            wave.camera_rays(integrator, hits.iter().copied(), &mut workshop, |seen| {
-                if let Some(sum) = sums.next() {
-                    sum.color += seen.color;
-                    sum.alpha += seen.alpha;
-                }
-            });
+            let mut workshop = Workshop { backend: camera.backend, tile: rays, scratch, counts: &mut stats.rays };
+            for (sum, seen) in sums.iter_mut().zip(wave.camera_rays(integrator, hits.iter().copied(), &mut workshop)) {
+                sum.color += seen.color;
+                sum.alpha += seen.alpha;
+            }
         }
         let share = 1.0 / f64::from(samples);
         let pixel = |Seen { color, alpha }| [color.r * share, color.g * share, color.b * share, alpha * share];

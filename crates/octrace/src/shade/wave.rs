@@ -5,15 +5,17 @@
 
 use super::whitted::{Branch, Lit, Met, RayCounts, Seen, Standing, Whitted};
 use crate::geom::Ray;
-use crate::model::Material;
+use crate::model::Rgb;
 use crate::trace::{Backend, RayTile, RayTo, Scratch, TileHit};
 
 /// The memory of a worker for trees of rays.
 #[derive(Debug, Default)]
 pub(crate) struct Wave {
     nodes: Vec<Node>,
-    /// What the rays of the present generation meet.
-    met: Vec<(usize, Met)>,
+    /// What comes along each ray.
+    seen: Vec<Seen>,
+    /// Where the rays come from that are not the camera's: of the last nodes.
+    origins: Vec<Origin>,
     rays: Vec<RayTo>,
     hits: Vec<TileHit>,
     lit: Vec<(usize, Lit)>,
@@ -25,68 +27,73 @@ struct Node {
     ray: Ray,
     hit: TileHit,
     standing: Standing,
-    /// What comes along it.
-    seen: Seen,
-    /// Where it comes from, unless from the camera.
-    origin: Option<Origin>,
 }
 
 /// Where a ray goes on from.
 #[derive(Clone, Copy, Debug)]
 struct Origin {
     parent: usize,
-    branch: Branch,
-    /// The material that it goes through, if it is refracted.
-    through: Option<Material>,
+    factor: Rgb,
+    /// If it is refracted, what share of the light goes through.
+    through: Option<f64>,
 }
 
 /// What tracing takes.
 pub(crate) struct Workshop<'a> {
+    pub backend: Backend,
     pub tile: &'a mut RayTile,
     pub scratch: &'a mut Scratch,
     pub counts: &'a mut RayCounts,
 }
 
 impl Wave {
-    /// Light along camera rays that meet what is said; given to `take` in their order.
+    /// Light along camera rays that meet what is said, in their order.
     pub fn camera_rays(
         &mut self,
         integrator: &Whitted,
         rays: impl Iterator<Item = (Ray, TileHit)>,
         workshop: &mut Workshop,
-        mut take: impl FnMut(Seen),
-    ) {
+    ) -> &[Seen] {
         self.nodes.clear();
+        self.seen.clear();
+        self.origins.clear();
         for (ray, hit) in rays {
-            let standing = integrator.camera_standing(&ray, workshop.scratch);
-            self.nodes.push(Node { ray, hit, standing, seen: integrator.nothing(true), origin: None });
+            self.nodes.push(Node { ray, hit, standing: integrator.camera_standing(&ray, workshop.scratch) });
         }
         let count = self.nodes.len();
         workshop.counts.camera += count as u64;
+        let mut met = Vec::with_capacity(count);
         let mut generation = 0;
         while generation < self.nodes.len() {
             let next = self.nodes.len();
-            self.light(integrator, generation, workshop);
-            self.go_on(integrator, workshop);
+            self.light(integrator, generation, &mut met, workshop);
+            self.go_on(integrator, &met, workshop);
             self.trace(integrator, next, workshop);
             generation = next;
         }
         self.gather();
-        for node in &self.nodes[..count] {
-            take(node.seen);
-        }
+        &self.seen[..count]
     }
 
     /// What surfaces there are where the rays from `first` on end, and the light on them.
-    fn light(&mut self, integrator: &Whitted, first: usize, Workshop { tile, scratch, counts }: &mut Workshop) {
-        let Self { nodes, met, rays, hits, lit } = self;
+    fn light<'a>(
+        &mut self,
+        integrator: &'a Whitted,
+        first: usize,
+        met: &mut Vec<(usize, Met<'a>)>,
+        Workshop { backend, tile, scratch, counts }: &mut Workshop,
+    ) {
+        let Self { nodes, seen, rays, hits, lit, .. } = self;
         met.clear();
-        for (number, node) in nodes.iter_mut().enumerate().skip(first) {
-            if let Some((_, hit)) = node.hit {
-                let surface = integrator.met(&node.ray, &hit);
-                node.seen = Seen { color: integrator.ambient(&surface), alpha: 1.0 };
-                met.push((number, surface));
-            }
+        for (number, node) in nodes.iter().enumerate().skip(first) {
+            seen.push(match node.hit {
+                Some((_, hit)) => {
+                    let surface = integrator.met(&node.ray, &hit);
+                    met.push((number, surface));
+                    Seen { color: integrator.ambient(&surface), alpha: 1.0 }
+                }
+                None => integrator.nothing(node.standing.direct),
+            });
         }
         for light in integrator.lights() {
             lit.clear();
@@ -96,48 +103,46 @@ impl Wave {
             rays.extend(lit.iter().map(|(_, Lit { shadow, reach, .. })| RayTo { ray: *shadow, end: *reach }));
             hits.clear();
             hits.resize(rays.len(), None);
-            integrator.tracer().first_hits_into(rays, Backend::best(), tile, scratch, hits);
+            integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
             for ((number, Lit { shadow, reach, intensity, factor }), hit) in lit.iter().zip(&*hits) {
                 let share = integrator.unshadowed(shadow, *reach, *hit, scratch, &mut ());
-                nodes[*number].seen.color += *intensity * share * *factor;
+                seen[*number].color += *intensity * share * *factor;
             }
         }
     }
 
     /// The rays that go on from there.
-    fn go_on(&mut self, integrator: &Whitted, Workshop { counts, .. }: &mut Workshop) {
-        let Self { nodes, met, .. } = self;
-        for (parent, surface) in met {
-            let Node { ray, hit: Some(hit), standing, .. } = nodes[*parent] else { continue };
+    fn go_on(&mut self, integrator: &Whitted, met: &[(usize, Met)], Workshop { counts, .. }: &mut Workshop) {
+        let Self { nodes, origins, .. } = self;
+        for (parent, surface) in met.iter().filter(|(_, surface)| surface.goes_on()) {
+            let Node { ray, hit: Some(hit), standing } = nodes[*parent] else { continue };
             let (refracted, reflected) = integrator.branches(&ray, hit, surface, &standing);
-            let mut set_out = |branch: Branch, is_refracted: bool| {
-                let standing = standing.of(&branch, is_refracted);
-                let through = is_refracted.then_some(surface.material);
-                let origin = Some(Origin { parent: *parent, branch, through });
-                let seen = integrator.nothing(standing.direct);
-                nodes.push(Node { ray: branch.ray, hit: None, standing, seen, origin });
+            let mut set_out = |branch: Branch, through: Option<f64>| {
+                let standing = standing.of(&branch, through.is_some());
+                origins.push(Origin { parent: *parent, factor: branch.factor, through });
+                nodes.push(Node { ray: branch.ray, hit: None, standing });
             };
             // They are gathered from the last to the first: what is refracted is added first.
             if let Some(branch) = reflected {
                 counts.reflected += 1;
-                set_out(branch, false);
+                set_out(branch, None);
             }
             if let Some(branch) = refracted {
                 counts.refracted += 1;
-                set_out(branch, true);
+                set_out(branch, Some(surface.material.kt));
             }
         }
     }
 
     /// Traces the rays from `first` on.
-    fn trace(&mut self, integrator: &Whitted, first: usize, Workshop { tile, scratch, .. }: &mut Workshop) {
+    fn trace(&mut self, integrator: &Whitted, first: usize, Workshop { backend, tile, scratch, .. }: &mut Workshop) {
         let Self { nodes, rays, hits, .. } = self;
         let new = &mut nodes[first..];
         rays.clear();
         rays.extend(new.iter().map(|node| RayTo { ray: node.ray, end: f64::INFINITY }));
         hits.clear();
         hits.resize(rays.len(), None);
-        integrator.tracer().first_hits_into(rays, Backend::best(), tile, scratch, hits);
+        integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
         for (node, hit) in new.iter_mut().zip(&*hits) {
             node.hit = *hit;
         }
@@ -145,13 +150,12 @@ impl Wave {
 
     /// Brings the light back to where the rays came from.
     fn gather(&mut self) {
-        for number in (0..self.nodes.len()).rev() {
-            let Node { seen, origin, .. } = self.nodes[number];
-            let Some(Origin { parent, branch, through }) = origin else { continue };
-            let parent = &mut self.nodes[parent].seen;
+        let cameras = self.nodes.len() - self.origins.len();
+        for (place, Origin { parent, factor, through }) in self.origins.iter().enumerate().rev() {
+            let seen = self.seen[cameras + place];
             match through {
-                Some(material) => parent.refract(seen, &branch, &material),
-                None => parent.reflect(seen, &branch),
+                Some(share) => self.seen[*parent].refract(seen, *factor, *share),
+                None => self.seen[*parent].reflect(seen, *factor),
             }
         }
     }

@@ -117,15 +117,22 @@ impl Media {
 
 /// A surface that a ray meets, ready to be lit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Met {
+pub(super) struct Met<'a> {
     pub point: SurfacePoint,
-    pub material: Material,
+    pub material: &'a Material,
     toward_viewer: Vec3,
     /// Towards the side that is seen.
     normal: Vec3,
     /// Where new rays start on that side, and how far off the surface that is.
     above: Vec3,
     offset: f64,
+}
+
+impl Met<'_> {
+    /// Whether light comes along other rays too, from a mirror image or from behind.
+    pub fn goes_on(&self) -> bool {
+        self.material.kr > 0.0 || self.material.is_transparent()
+    }
 }
 
 /// What a light would bring to a surface.
@@ -216,9 +223,9 @@ impl<'a> Whitted<'a> {
     }
 
     /// As [`Scene::material`].
-    fn material(&self, part: Option<PartId>) -> Material {
+    fn material(&self, part: Option<PartId>) -> &Material {
         part.and_then(|PartId(index)| self.scene.parts.get(index as usize))
-            .map_or(self.default_material, |part| part.material)
+            .map_or(&self.default_material, |part| &part.material)
     }
 
     fn ior(&self, media: &Media) -> f64 {
@@ -234,7 +241,7 @@ impl<'a> Whitted<'a> {
     }
 
     /// What a ray meets.
-    pub(super) fn met(&self, ray: &Ray, hit: &Hit) -> Met {
+    pub(super) fn met(&self, ray: &Ray, hit: &Hit) -> Met<'_> {
         let point = self.tracer.surface_point(ray, hit);
         let material = self.material(point.part);
         let toward_viewer = -ray.direction.normalized().unwrap_or(Vec3::Z);
@@ -365,10 +372,12 @@ impl<W: Watch> Path<'_, '_, W> {
         let mut seen = Seen { color: self.local(&met), alpha: 1.0 };
         let (refracted, reflected) = self.integrator.branches(ray, (body, hit), &met, &standing);
         if let Some(branch) = refracted {
-            seen.refract(self.along(RayKind::Refracted, &branch, standing.of(&branch, true)), &branch, &met.material);
+            let behind = self.along(RayKind::Refracted, &branch, standing.of(&branch, true));
+            seen.refract(behind, branch.factor, met.material.kt);
         }
         if let Some(branch) = reflected {
-            seen.reflect(self.along(RayKind::Reflected, &branch, standing.of(&branch, false)), &branch);
+            let mirrored = self.along(RayKind::Reflected, &branch, standing.of(&branch, false));
+            seen.reflect(mirrored, branch.factor);
         }
         seen
     }
@@ -399,15 +408,15 @@ impl<W: Watch> Path<'_, '_, W> {
 }
 
 impl Seen {
-    /// Adds what is seen along the refracted ray.
-    pub(super) fn refract(&mut self, behind: Self, branch: &Branch, material: &Material) {
-        self.color += behind.color * branch.factor;
-        self.alpha = (self.alpha - material.kt * (1.0 - behind.alpha)).clamp(0.0, 1.0);
+    /// Adds what is seen along the refracted ray: `through` is the share of light that comes from there.
+    pub(super) fn refract(&mut self, behind: Self, factor: Rgb, through: f64) {
+        self.color += behind.color * factor;
+        self.alpha = (self.alpha - through * (1.0 - behind.alpha)).clamp(0.0, 1.0);
     }
 
     /// Adds what is seen along the reflected ray.
-    pub(super) fn reflect(&mut self, mirrored: Self, branch: &Branch) {
-        self.color += mirrored.color * branch.factor;
+    pub(super) fn reflect(&mut self, mirrored: Self, factor: Rgb) {
+        self.color += mirrored.color * factor;
     }
 }
 

@@ -5,6 +5,7 @@
 //! coordinates of that size shall pretend that it does.
 
 use crate::geom::{Bounds, Hit, Ray, Span, Spans, Vec3};
+use std::ops::Range;
 
 /// A ray as it is traced, and how its parameters are those of the caller's ray.
 pub(super) struct Prepared {
@@ -19,12 +20,37 @@ pub(super) struct Prepared {
 /// What is farther from the middle of the scene than so many times its size, is far.
 const FAR: f64 = 64.0;
 
+/// Which rays are traced just as they are given.
+pub(super) struct Usual {
+    center: Vec3,
+    far: f64,
+}
+
+impl Usual {
+    /// For a scene whose bounded parts lie in `bounds`.
+    pub fn new(bounds: &Bounds) -> Self {
+        match bounds.is_empty() {
+            true => Self { center: Vec3::ZERO, far: f64::INFINITY },
+            false => Self { center: bounds.center(), far: FAR * bounds.size().max_abs() },
+        }
+    }
+
+    /// Whether that ray is.
+    #[inline]
+    pub fn holds(&self, ray: &Ray) -> bool {
+        USUAL_DIRECTIONS.contains(&ray.direction.max_abs()) && (self.center - ray.origin).max_abs() <= self.far
+    }
+}
+
+/// The largest coordinates of directions that need not be scaled.
+const USUAL_DIRECTIONS: Range<f64> = 1e-30..1e30;
+
 impl Prepared {
     /// Prepares a ray for a scene whose bounded parts lie in `bounds`.
     pub fn new(ray: &Ray, bounds: &Bounds) -> Self {
         let mut prepared = Self { ray: *ray, passes_by: false, shift: 0.0, scale: 1.0 };
         let largest = ray.direction.max_abs();
-        if !(1e-30..1e30).contains(&largest) {
+        if !USUAL_DIRECTIONS.contains(&largest) {
             let exponent = exponent_of(largest);
             prepared.ray.direction = scaled(ray.direction, -exponent);
             prepared.scale = libm::ldexp(1.0, exponent);

@@ -146,6 +146,12 @@ impl Tiles<'_> {
         }
     }
 
+    /// The ray of a pixel of the tile.
+    pub fn ray(&self, tile: &RayTile, (x, y): (usize, usize)) -> Ray {
+        let (packet, lane) = lane_of(x, y);
+        tile.ray(packet, lane)
+    }
+
     /// What the ray of a pixel of the tile met.
     pub fn hit(&self, tile: &RayTile, (x, y): (usize, usize)) -> TileHit {
         let (number, lane) = lane_of(x, y);

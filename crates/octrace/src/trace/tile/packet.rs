@@ -92,12 +92,19 @@ impl Packet {
         Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
+    /// Finds the inverse of directions that were [`put`](Self::put).
+    #[inline(always)]
+    pub fn invert<I: Isa>(&mut self) {
+        let one = F64s::<I>::splat(1.0);
+        let [x, y, z] = &self.direction;
+        self.inverse = [(one / F64s::load(x)).stored(), (one / F64s::load(y)).stored(), (one / F64s::load(z)).stored()];
+    }
+
     /// Sets a ray that is followed up to and including `end`.
     pub fn put(&mut self, lane: usize, ray: &Ray, end: f64) {
         for axis in 0..3 {
             self.origin[axis].0[lane] = ray.origin[axis];
             self.direction[axis].0[lane] = ray.direction[axis];
-            self.inverse[axis].0[lane] = 1.0 / ray.direction[axis];
         }
         self.per_depth.0[lane] = 1.0;
         self.t.0[lane] = end.next_up();

@@ -8,7 +8,7 @@ use super::lanes::{Isa, LANES};
 use super::walk::{Lead, Own, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
 use crate::geom::Ray;
-use crate::trace::prepared::Prepared;
+use crate::trace::prepared::Usual;
 use crate::trace::{Scratch, Tracer};
 
 /// A ray, and up to which parameter it is followed.
@@ -51,10 +51,10 @@ impl Tracer {
         hits: &mut [TileHit],
     ) {
         let together = self.bodies.iter().all(|body| body.is_walked_by_default());
-        let bounds = self.bounds();
+        let usual = Usual::new(&self.bounds());
         let mut by_signs = std::mem::take(&mut tile.by_signs);
         for (index, RayTo { ray, end }) in rays.iter().enumerate() {
-            let is_usual = together && Prepared::new(ray, &bounds).is_as_given() && *end > 0.0;
+            let is_usual = together && usual.holds(ray) && *end > 0.0;
             if !is_usual {
                 hits[index] = self.first_body_hit(ray, *end, scratch);
                 continue;
@@ -120,6 +120,9 @@ impl Task for TraceStream<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
         let Self { tracer, signs, tile, scratch } = self;
+        for packet in tile.packets.iter_mut().filter(|packet| packet.wanted != 0) {
+            packet.invert::<I>();
+        }
         for (number, body) in tracer.bodies.iter().enumerate() {
             let Some(octree) = body.octree() else { continue };
             for packet in &mut tile.packets {
