@@ -21,7 +21,7 @@ def draw(scene: Path, picture: Path, quality: str, patience_s: float, *options: 
     try:
         done = subprocess.run(words, capture_output=True, text=True, timeout=patience_s)
     except subprocess.TimeoutExpired:
-        raise TooSlow(f"POV-Ray takes more than {patience_s:.0f} s") from None
+        raise TooSlow(f"takes more than {patience_s:.0f} s") from None
     if done.returncode != 0:
         raise RuntimeError(done.stderr[-2000:])
     spent = {stage: Took(cpu, wall) for stage, wall, cpu in times(done.stderr)}

@@ -40,7 +40,7 @@ class Runner:
     def answer(self) -> Took:
         if not self.selector.select(self.patience_s):
             self.close()
-            raise TooSlow(f"{self.name} takes more than {self.patience_s:.0f} s")
+            raise TooSlow(f"takes more than {self.patience_s:.0f} s")
         line = self.process.stdout.readline()
         if not line:
             raise RuntimeError(f"{self.name} ended: {self.process.wait()}")
