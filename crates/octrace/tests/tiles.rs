@@ -128,3 +128,12 @@ fn usual_pictures_are_traced_in_tiles() {
         );
     }
 }
+
+/// In a cell with one surface, a ball that was taken away: the first crossing leads out of the solid, the second back in.
+#[test]
+fn a_ray_that_starts_inside_leaves_before_it_enters() {
+    let solid = Solid::block().scale([8.0; 3]) - Solid::sphere().scale([0.3; 3]).translate([3.0, 3.0, 3.0]);
+    let ray = Ray::new([2.2, 3.0, 3.0], [1.0, 0.0, 0.0]);
+    compare_stream(&[solid], BuildOptions { leaf_surfaces: 1, depth: Some(2) }, &[RayTo { ray, end: f64::INFINITY }])
+        .expect("it leaves");
+}

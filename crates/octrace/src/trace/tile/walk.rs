@@ -428,11 +428,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let (a, b) = (crossed.a, crossed.b);
         let two_sides = a.lt(b);
         let turn = starts_wanted.select(b, a);
-        let found = here & two_sides & turn.ge(t_in) & turn.le(t_out) & turn.lt(F64s::infinity());
         // Already there, and not since just now.
         let between = two_sides & a.lt(t_in) & t_in.lt(b) & !starts_wanted;
         let beyond = starts_wanted & !(two_sides & a.le(t_in) & t_in.le(b));
         let leaked = here & (between | beyond);
+        let found = here & !leaked & two_sides & turn.ge(t_in) & turn.le(t_out) & turn.lt(F64s::infinity());
         self.packets[number].meet::<I>(found, turn, [word; LANES], self.scenery);
         if leaked.any() {
             self.packets[number].leak(leaked, t_in);
