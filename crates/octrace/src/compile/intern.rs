@@ -32,14 +32,19 @@ pub(super) fn intern(
     surfaces: &mut Vec<Surface>,
 ) -> (Vec<SurfaceRef>, CompileReport) {
     let mut room = Vec::new();
-    let sized = |(i, face): (usize, &Face)| (face.size(face.samples(&mut room)), i as u32);
-    let mut order: Vec<(f64, u32)> = faces.iter().enumerate().map(sized).collect();
-    order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    // Larger ones first, else as they come: sizes that differ by rounding are the same, and neighbours in the model are
+    // neighbours in memory.
+    let place = |(i, face): (usize, &Face)| {
+        let size = face.size(face.samples(&mut room)) as f32;
+        u64::from(!size.to_bits()) << 32 | i as u64
+    };
+    let mut order: Vec<u64> = faces.iter().enumerate().map(place).collect();
+    order.sort_unstable();
     let mut interner = Interner::new(extent, snap, surfaces);
     let mut refs = vec![SurfaceRef { surface: 0, flipped: false }; faces.len()];
-    for (_, index) in order {
-        let face = &faces[index as usize];
-        refs[index as usize] = interner.face(face, face.samples(&mut room));
+    for index in order.into_iter().map(|place| place as u32 as usize) {
+        let face = &faces[index];
+        refs[index] = interner.face(face, face.samples(&mut room));
     }
     (refs, interner.report)
 }

@@ -44,10 +44,10 @@ impl LatticeBox {
         (0..3).any(|i| self.low[i] > self.high[i])
     }
 
-    /// Its shortest edge, in steps.
-    fn shortest(self) -> u32 {
+    /// Its longest edge, in steps. (Some boxes are slabs, which cells see all along: they are not worth being items.)
+    fn longest(self) -> u32 {
         let edge = |i: usize| u32::from(self.high[i] - self.low[i]) + 1;
-        edge(0).min(edge(1)).min(edge(2))
+        edge(0).max(edge(1)).max(edge(2))
     }
 }
 
@@ -162,7 +162,7 @@ impl Items {
         if words <= Self::FEW_WORDS {
             return self.open_all(stack, program);
         }
-        let stays_closed = |node: usize| self.boxes[node].shortest() < cell.edge;
+        let stays_closed = |node: usize| self.boxes[node].longest() < cell.edge;
         let mut program = self.open_where(stack, program, |node| !stays_closed(node), stays_closed);
         while program.len() < Self::FEW_ENTRIES && stack[program.clone()].iter().any(|entry| entry.is_item()) {
             program = self.open_where(stack, program, |_| true, stays_closed);
@@ -296,7 +296,7 @@ fn boxes(catalog: &Catalog, entries: &[Entry], lattice: &Lattice) -> Vec<Lattice
         while operand < end {
             let own = places[operand][usize::from(is_and)];
             let is_literal = node_end_of(entries, operand) == operand + 1;
-            if (operands >= Items::MANY || !is_literal) && !own.is_empty() && own.shortest() < STEPS / 2 {
+            if (operands >= Items::MANY || !is_literal) && !own.is_empty() && own.longest() < STEPS / 2 {
                 boxes[operand] = own;
             }
             operand = node_end_of(entries, operand);

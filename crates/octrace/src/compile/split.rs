@@ -166,6 +166,7 @@ impl Splitter {
         self.known.clear();
         let (mut at, mut asked) = (0, all);
         let classified = u64::from(all.count_ones());
+        let first = boxes.octants.cell(0);
         loop {
             let entry = entries[at];
             let negated = match Word::decode(entry.word) {
@@ -182,7 +183,11 @@ impl Splitter {
                 Some((items, cell)) if entry.is_item() => OctantSides { inside: 0, outside: items.missed(entry, cell) },
                 _ => {
                     self.classified += classified;
-                    let mut sides = catalog.surfaces[entry.surface as usize].classify_octants(&boxes.octants);
+                    let surface = &catalog.surfaces[entry.surface as usize];
+                    let mut sides = match all {
+                        1 => OctantSides::all(surface.classify(&first)),
+                        _ => surface.classify_octants(&boxes.octants),
+                    };
                     self.known.decide(entry.surface, &mut sides);
                     sides
                 }

@@ -30,6 +30,17 @@ pub struct OctantSides {
     pub outside: u8,
 }
 
+impl OctantSides {
+    /// All boxes on the same side.
+    pub fn all(side: Side) -> Self {
+        match side {
+            Side::Inside => Self { inside: u8::MAX, outside: 0 },
+            Side::Outside => Self { inside: 0, outside: u8::MAX },
+            Side::Crossing => Self { inside: 0, outside: 0 },
+        }
+    }
+}
+
 const LANES: usize = 8;
 type Lanes = [f64; LANES];
 
