@@ -696,7 +696,7 @@ fn packets_of(parts: u8) -> u32 {
 fn swapped(bits: u8, by: usize) -> u8 {
     let bits = if by & 1 != 0 { (bits & 0x55) << 1 | bits >> 1 & 0x55 } else { bits };
     let bits = if by & 2 != 0 { (bits & 0x33) << 2 | bits >> 2 & 0x33 } else { bits };
-    if by & 4 != 0 { bits << 4 | bits >> 4 } else { bits }
+    if by & 4 != 0 { bits.rotate_left(4) } else { bits }
 }
 
 #[cfg(test)]
