@@ -3,8 +3,8 @@
 //! What comes out is what [`Whitted::camera_ray`] makes of each ray by itself, to the bit: the same terms are added in the
 //! same order.
 
-use super::whitted::{Branch, Lit, Met, RayCounts, Seen, Standing, Whitted};
-use crate::geom::Ray;
+use super::whitted::{Branch, LightsWay, Lit, Met, RayCounts, Seen, Standing, Whitted};
+use crate::geom::{Ray, Vec3};
 use crate::model::Rgb;
 use crate::trace::{Backend, RayTile, RayTo, Scratch, TileHit};
 
@@ -19,6 +19,7 @@ pub(crate) struct Wave {
     rays: Vec<RayTo>,
     hits: Vec<TileHit>,
     lit: Vec<(usize, Lit)>,
+    ways: Vec<LightsWay>,
 }
 
 /// A ray of a tree.
@@ -57,8 +58,15 @@ impl Wave {
         self.nodes.clear();
         self.seen.clear();
         self.origins.clear();
+        let mut last: Option<(Vec3, Standing)> = None;
         for (ray, hit) in rays {
-            self.nodes.push(Node { ray, hit, standing: integrator.camera_standing(&ray, workshop.scratch) });
+            // Most cameras are in one place.
+            let standing = match last {
+                Some((origin, standing)) if origin == ray.origin => standing,
+                _ => integrator.camera_standing(&ray, workshop.scratch),
+            };
+            last = Some((ray.origin, standing));
+            self.nodes.push(Node { ray, hit, standing });
         }
         let count = self.nodes.len();
         workshop.counts.camera += count as u64;
@@ -83,7 +91,7 @@ impl Wave {
         met: &mut Vec<(usize, Met<'a>)>,
         Workshop { backend, tile, scratch, counts }: &mut Workshop,
     ) {
-        let Self { nodes, seen, rays, hits, lit, .. } = self;
+        let Self { nodes, seen, rays, hits, lit, ways, .. } = self;
         met.clear();
         for (number, node) in nodes.iter().enumerate().skip(first) {
             seen.push(match node.hit {
@@ -99,14 +107,23 @@ impl Wave {
             lit.clear();
             lit.extend(met.iter().filter_map(|(number, met)| Some((*number, integrator.lit(met, light)?))));
             counts.shadow += lit.len() as u64;
-            rays.clear();
-            rays.extend(lit.iter().map(|(_, Lit { shadow, reach, .. })| RayTo { ray: *shadow, end: *reach }));
-            hits.clear();
-            hits.resize(rays.len(), None);
-            integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
-            for ((number, Lit { shadow, reach, intensity, factor }), hit) in lit.iter().zip(&*hits) {
-                let share = integrator.unshadowed(shadow, *reach, *hit, scratch, &mut ());
-                seen[*number].color += *intensity * share * *factor;
+            ways.clear();
+            ways.extend(lit.iter().map(|(_, Lit { shadow, reach, .. })| LightsWay::new(shadow, *reach)));
+            loop {
+                rays.clear();
+                rays.extend(ways.iter().filter_map(|way| way.rest));
+                if rays.is_empty() {
+                    break;
+                }
+                hits.clear();
+                hits.resize(rays.len(), None);
+                integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
+                for (way, hit) in ways.iter_mut().filter(|way| way.rest.is_some()).zip(&*hits) {
+                    integrator.pass(way, *hit);
+                }
+            }
+            for ((number, Lit { intensity, factor, .. }), way) in lit.iter().zip(&*ways) {
+                seen[*number].color += *intensity * way.share * *factor;
             }
         }
     }

@@ -12,7 +12,7 @@ use super::ray_tree::{RayKind, Watch};
 use crate::geom::{Hit, Ray, Vec3};
 use crate::model::{Light, Material, PartId, Rgb, Scene};
 use crate::num::power_of_fraction;
-use crate::trace::{Scratch, SurfacePoint, Tracer};
+use crate::trace::{RayTo, Scratch, SurfacePoint, Tracer};
 use std::ops::AddAssign;
 
 /// What lights the scene.
@@ -144,6 +144,23 @@ pub(super) struct Lit {
     pub intensity: Rgb,
     /// By what arriving light is multiplied on its way to the viewer.
     pub factor: Rgb,
+}
+
+/// A surface's way to a light, past transparent things.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightsWay {
+    /// What share of the light comes through, as far as one knows.
+    pub share: Rgb,
+    /// What has not been looked at.
+    pub rest: Option<RayTo>,
+    crossings: u32,
+}
+
+impl LightsWay {
+    /// To the light at `t = reach`.
+    pub fn new(ray: &Ray, reach: f64) -> Self {
+        Self { share: Rgb::WHITE, rest: Some(RayTo { ray: *ray, end: reach }), crossings: 0 }
+    }
 }
 
 /// A ray that goes on from a surface.
@@ -310,41 +327,39 @@ impl<'a> Whitted<'a> {
         (refracted.filter(counts), reflected.filter(counts))
     }
 
-    /// What share of light comes through to the ray's origin from `t = reach`, if `first` is what the ray meets first.
-    pub(super) fn unshadowed(
-        &self,
-        ray: &Ray,
-        reach: f64,
-        first: Option<(usize, Hit)>,
-        scratch: &mut Scratch,
-        watch: &mut impl Watch,
-    ) -> Rgb {
-        let mut share = Rgb::WHITE;
-        let (mut ray, mut reach, mut next) = (*ray, reach, first);
-        for _ in 0..MAX_SHADOW_CROSSINGS {
-            let Some((_, hit)) = next else {
-                return share;
-            };
-            let point = self.tracer.surface_point(&ray, &hit);
-            watch.meets(&hit, &point);
-            share = share * self.material(point.part).transmission();
-            if share.max_component() < LEAST_WEIGHT {
-                return Rgb::BLACK;
+    /// What share of light comes through to the ray's origin from `t = reach`.
+    fn unshadowed(&self, ray: &Ray, reach: f64, scratch: &mut Scratch, watch: &mut impl Watch) -> Rgb {
+        let mut way = LightsWay::new(ray, reach);
+        while let Some(RayTo { ray, end }) = way.rest {
+            let hit = self.tracer.first_body_hit(&ray, end, scratch);
+            if let Some((hit, point)) = self.pass(&mut way, hit) {
+                watch.meets(&hit, &point);
             }
-            // On from the far side of the surface, towards the same light.
-            let along = if point.normal.dot(ray.direction) < 0.0 { -point.normal } else { point.normal };
-            let end = ray.at(reach);
-            ray.origin = point.position + along * self.offset(&ray, &hit, &point);
-            if reach.is_finite() {
-                ray.direction = end - ray.origin;
-                reach = 1.0;
-            }
-            if ray.direction == Vec3::ZERO {
-                return share;
-            }
-            next = self.tracer.first_body_hit(&ray, reach, scratch);
         }
-        Rgb::BLACK
+        way.share
+    }
+
+    /// Follows a light's way past what the rest of it meets first; says what that is.
+    pub(super) fn pass(&self, way: &mut LightsWay, first: Option<(usize, Hit)>) -> Option<(Hit, SurfacePoint)> {
+        let RayTo { mut ray, end: mut reach } = way.rest.take()?;
+        let (_, hit) = first?;
+        let point = self.tracer.surface_point(&ray, &hit);
+        way.share = way.share * self.material(point.part).transmission();
+        way.crossings += 1;
+        if way.share.max_component() < LEAST_WEIGHT || way.crossings == MAX_SHADOW_CROSSINGS {
+            way.share = Rgb::BLACK;
+            return Some((hit, point));
+        }
+        // On from the far side of the surface, towards the same light.
+        let along = if point.normal.dot(ray.direction) < 0.0 { -point.normal } else { point.normal };
+        let end = ray.at(reach);
+        ray.origin = point.position + along * self.offset(&ray, &hit, &point);
+        if reach.is_finite() {
+            ray.direction = end - ray.origin;
+            reach = 1.0;
+        }
+        way.rest = (ray.direction != Vec3::ZERO).then_some(RayTo { ray, end: reach });
+        Some((hit, point))
     }
 
     /// How far a ray that starts at a hit must start off the surface, so as not to meet it again.
@@ -398,8 +413,7 @@ impl<W: Watch> Path<'_, '_, W> {
         for (number, light) in integrator.lights().iter().enumerate() {
             let Some(Lit { shadow, reach, intensity, factor }) = integrator.lit(met, light) else { continue };
             self.watch.sets_out(RayKind::Shadow { light: number }, &shadow, intensity * factor);
-            let first = integrator.tracer.first_body_hit(&shadow, reach, self.scratch);
-            let share = integrator.unshadowed(&shadow, reach, first, self.scratch, self.watch);
+            let share = integrator.unshadowed(&shadow, reach, self.scratch, self.watch);
             self.watch.returns(share);
             sum += intensity * share * factor;
         }
