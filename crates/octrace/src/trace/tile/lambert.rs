@@ -4,9 +4,8 @@
 use super::crossing::{Rays, crossed_by, point};
 use super::dispatch::Task;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
-use super::packet::Packet;
+use super::packet::{Common, Origins, Own, Packet};
 use super::program::surface_of;
-use super::walk::{Common, Origins, Own};
 use super::{ACROSS, PACKET_PX, PACKETS, RayTile, TILE_PX, Tiles, lane_of};
 use crate::compile::{Catalog, Word};
 use crate::geom::Vec3;

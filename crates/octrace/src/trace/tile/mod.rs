@@ -7,8 +7,11 @@
 mod beam;
 mod crossing;
 mod dispatch;
+mod kernels;
 mod lambert;
 mod lanes;
+mod leaf;
+mod outer;
 mod packet;
 mod program;
 mod prune;
@@ -27,10 +30,12 @@ use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
 use dispatch::Task;
+use kernels::Chunk;
 use lanes::{Isa, LANES, Stored};
-use packet::Packet;
+use leaf::{MAX_CUTS, Slab, Slabs};
+use packet::{Common, Own, Packet};
 use program::Solved;
-use walk::{Chunk, Common, Lead, MAX_CUTS, Own, Scenery, Slab, Slabs, Waiting, walk};
+use walk::{Lead, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;

@@ -1,12 +1,43 @@
 //! Eight rays on their way.
 
 use super::crossing::Rays;
-use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
-use super::walk::{Origins, Scenery};
+use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
+use super::walk::Scenery;
 use super::{ACROSS, PACKET_PX};
 use crate::geom::{Ray, Vec3};
 use crate::model::CameraRays;
 use crate::trace::Scratch;
+
+/// How rays start: all from one point, or each from its own.
+pub(super) trait Origins<I: Isa> {
+    type Number: Number<I>;
+    fn of(packet: &Packet, eye: Vec3) -> Vector<Self::Number>;
+}
+
+/// From one point.
+pub(super) struct Common;
+
+/// Each from its own.
+pub(super) struct Own;
+
+impl<I: Isa> Origins<I> for Common {
+    type Number = f64;
+
+    #[inline(always)]
+    fn of(_packet: &Packet, eye: Vec3) -> Vector<f64> {
+        Vector::new(eye.x, eye.y, eye.z)
+    }
+}
+
+impl<I: Isa> Origins<I> for Own {
+    type Number = F64s<I>;
+
+    #[inline(always)]
+    fn of(packet: &Packet, _eye: Vec3) -> Vector<F64s<I>> {
+        let [x, y, z] = &packet.origin;
+        Vector::new(F64s::load(x), F64s::load(y), F64s::load(z))
+    }
+}
 
 /// The pixels of the lanes.
 const LANE_X: Stored = Stored([0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0]);

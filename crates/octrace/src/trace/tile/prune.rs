@@ -37,10 +37,9 @@ impl<I: Isa> Parts<I> {
         Self { origin, direction, depth: 0.5 * (near + far), half_depth: 0.5 * (far - near), sides, margin }
     }
 
-    /// Whether they are deeper than wide.
+    /// Whether they are so much deeper than wide that it pays to cut them.
     #[inline(always)]
-    pub fn is_deep(&self, beam: &Beam) -> bool {
-        let _ = beam;
+    pub fn is_deep(&self) -> bool {
         self.half_depth > 4.0 * self.sides[0].max_abs()
     }
 

@@ -5,7 +5,8 @@
 
 use super::dispatch::{Backend, Task};
 use super::lanes::{Isa, LANES};
-use super::walk::{Lead, Own, Scenery, walk};
+use super::packet::Own;
+use super::walk::{Lead, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
 use crate::geom::Ray;
 use crate::trace::prepared::Usual;

@@ -1,0 +1,128 @@
+//! Leaves: their programs are pruned for the parts of a tile's beam and cut in depth, then evaluated.
+
+use super::beam::PART_PACKETS;
+use super::kernels::{Cube, GiveUp, OneByOne, Several, Single, bits_of};
+use super::lanes::Isa;
+use super::packet::Origins;
+use super::program::is_short;
+use super::prune::{Parts, Pruned};
+use super::walk::Walk;
+use crate::geom::Vec3;
+
+/// Programs are pruned for at least so many packets; for fewer it takes longer than it saves.
+const PRUNED_FOR: u32 = 6;
+
+/// A slab is cut in two so many times at most.
+pub(super) const MAX_CUTS: usize = 4;
+
+/// What lies between two depths of a leaf, for some parts of the beam.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slab {
+    words: Pruned,
+    near: f64,
+    far: f64,
+    parts: u8,
+    cuts: usize,
+}
+
+/// Slabs that wait for their turn.
+pub(super) type Slabs = [Slab; MAX_CUTS + 1];
+
+impl Slab {
+    pub const NOTHING: Self = Self { words: Pruned::NOTHING, near: 0.0, far: 0.0, parts: 0, cuts: 0 };
+}
+
+impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
+    /// A leaf, for those packets.
+    ///
+    /// What the beam's parts see of it is pruned; where more than one surface is left, the parts are cut in depth, and the
+    /// nearer half goes first.
+    #[inline(always)]
+    pub(super) fn leaf(&mut self, words: &[u32], packets: u32, center: Vec3, half: f64) {
+        if !is_short(words) {
+            self.give_up_in(packets, Cube { center, half }, (0.0, f64::INFINITY));
+            return;
+        }
+        let cube = Cube { center, half };
+        if packets.count_ones() < PRUNED_FOR {
+            self.evaluate(words, packets, cube, (0.0, f64::INFINITY));
+            return;
+        }
+        let margin = self.scenery.octree.margin;
+        let (near, far) = self.beam.depths(center, half + margin);
+        self.slabs[0] = Slab { words: Pruned::new(words), near, far, parts: u8::MAX, cuts: 0 };
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let Slab { words, near, far, parts, cuts } = self.slabs[count];
+            let mut open = 0;
+            for (part, part_packets) in PART_PACKETS.iter().enumerate() {
+                open |= u8::from(packets & self.open & part_packets != 0) << part;
+            }
+            let parts = parts & open;
+            if parts == 0 {
+                continue;
+            }
+            let region = Parts::<I>::new(self.beam, (near, far), margin);
+            self.known.learn(self.scenery.catalog, words.words(), &region);
+            let (always, never) = self.known.decided();
+            let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
+            if leaked & !settled & parts != 0 {
+                self.give_up_in(packets & packets_of(leaked & parts), cube, (near, far));
+            }
+            let undecided = parts & !(settled | leaked);
+            let can_be_cut = cuts < MAX_CUTS && region.is_deep();
+            let crowded = if can_be_cut { self.known.crowded(words.words(), undecided) } else { 0 };
+            let mut left = undecided & !crowded;
+            while left != 0 {
+                let alike = self.known.alike(words.words(), left);
+                let pruned = self.known.pruned(words.words(), left & left.wrapping_neg());
+                self.evaluate(pruned.words(), packets & packets_of(alike), cube, (near, far));
+                left &= !alike;
+            }
+            if crowded != 0 {
+                let words = self.known.pruned(words.words(), crowded);
+                let middle = 0.5 * (near + far);
+                self.slabs[count] = Slab { words, near: middle, far, parts: crowded, cuts: cuts + 1 };
+                self.slabs[count + 1] = Slab { words, near, far: middle, parts: crowded, cuts: cuts + 1 };
+                count += 2;
+            }
+        }
+    }
+
+    /// Evaluates a leaf's program for those packets.
+    pub(super) fn evaluate(&mut self, words: &[u32], packets: u32, cube: Cube, depths: (f64, f64)) {
+        match *words {
+            _ if !self.scenery.is_plain(words) => {
+                I::call(OneByOne { walk: self, words, packets, cube, depths });
+            }
+            [word] => I::call(Single { walk: self, word, packets, cube, depths }),
+            _ => I::call(Several { walk: self, words, packets, cube, depths }),
+        }
+        self.close(packets);
+    }
+
+    /// Takes note of which of those packets have no open rays any more.
+    pub(super) fn close(&mut self, packets: u32) {
+        for number in bits_of(packets) {
+            self.open &= !(u32::from(self.packets[number].open == 0) << number);
+        }
+    }
+
+    /// Leaves to scalar code the open rays of those packets that come through a cell.
+    #[inline(always)]
+    pub(super) fn give_up_in(&mut self, packets: u32, cube: Cube, depths: (f64, f64)) {
+        I::call(GiveUp { walk: self, packets, cube, depths });
+        self.close(packets);
+    }
+}
+
+/// All packets of some parts.
+#[inline(always)]
+fn packets_of(parts: u8) -> u32 {
+    let mut packets = 0;
+    for (part, part_packets) in PART_PACKETS.iter().enumerate() {
+        packets |= if parts >> part & 1 != 0 { *part_packets } else { 0 };
+    }
+    packets
+}
