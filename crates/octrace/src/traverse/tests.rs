@@ -92,11 +92,7 @@ fn ray_through(octree: &Octree, from: [i32; 3], to: [i32; 3], nudge: [f64; 3], l
     let origin = place(from);
     let direction = (place(to) - origin + Vec3::from(nudge) * octree.half) * length;
     // Tracers make directions fit before they walk.
-    let is_fit = (1e-30..1e30).contains(&direction.max_abs());
-    // What moves a ray by less than a rounding of a rounding is followed by some traversals and not by others.
-    let is_nothing = |c: f64| !is_parallel(c) && c.abs() < 1e-100 * direction.max_abs();
-    let is_clear = !direction.to_array().into_iter().any(is_nothing);
-    Ray::checked(origin, direction).filter(|_| is_fit && is_clear)
+    Ray::checked(origin, direction).filter(|_| (1e-30..1e30).contains(&direction.max_abs()))
 }
 
 fn tiny() -> impl Strategy<Value = f64> {
@@ -127,8 +123,11 @@ proptest! {
             direction: [0, 1, 2].map(|axis| exact(d(axis))),
         };
         let expected = reference(&octree, &line, &exact(t_in), &exact(t_out));
+        // Glassner's walk asks for the cell of a point: what moves a ray by less than any rounding does not move that.
+        let is_nothing = |c: f64| !is_parallel(c) && c.abs() < 1e-100 * ray.direction.max_abs();
+        let moves_by_nothing = ray.direction.to_array().into_iter().any(is_nothing);
         for kind in TraversalKind::ALL {
-            if kind != TraversalKind::Bresenham {
+            if kind != TraversalKind::Bresenham && !(kind == TraversalKind::Glassner && moves_by_nothing) {
                 prop_assert_eq!(walked(&octree, kind, &ray, (t_in, t_out)), expected.clone(), "{}", kind);
             }
         }
