@@ -7,11 +7,12 @@
 use super::PACKETS;
 use super::RayTile;
 use super::beam::Beam;
+use super::bundles::Bundles;
 use super::kernels::{Chunk, Cube, Stretch, bits_of};
 use super::lanes::{F64s, Isa, LANES, Number};
 use super::leaf::Slabs;
 use super::packet::{Origins, Packet};
-use super::program::{Solved, is_plain, is_short};
+use super::program::{Solved, is_plain};
 use super::prune::Known;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::Vec3;
@@ -69,10 +70,11 @@ pub(super) enum Lead {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, waiting, solved, slabs, chunk, .. } = tile;
+    let RayTile { packets, beam, bundles, waiting, solved, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
+        bundles,
         packets,
         scratch,
         open: 0,
@@ -99,6 +101,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &
 pub(super) struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     pub scenery: &'b Scenery<'a>,
     pub beam: &'b Beam,
+    pub bundles: &'b mut Bundles,
     pub packets: &'b mut [Packet; PACKETS],
     pub scratch: &'b mut Scratch,
     /// Packets with rays that have met nothing so far.
@@ -169,6 +172,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let void = if wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
         let everywhere = (0.0, f64::INFINITY);
         waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX };
+        self.bundles.gather::<I>(self.packets, near, Cube { center: octree.center, half: octree.half });
         let mut count = usize::from(octree.root != void);
         while count > 0 && self.open != 0 {
             count -= 1;
@@ -200,11 +204,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 }
                 Kind::Leaf(offset) => {
                     self.scratch.counters.cells += 1;
-                    let words = octree.program(offset);
-                    match is_short(words) {
-                        true => self.evaluate(words, packets, cube, everywhere),
-                        false => self.give_up_in(packets, cube, everywhere),
-                    }
+                    self.leaf_of_stream(octree.program(offset), packets, cube, near);
                 }
                 Kind::Outside | Kind::Inside => self.give_up_in(packets, cube, everywhere),
             }
