@@ -167,7 +167,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
 
 /// All packets of some parts.
 #[inline(always)]
-fn packets_of(parts: u8) -> u32 {
+pub(super) fn packets_of(parts: u8) -> u32 {
     let mut packets = 0;
     for (part, part_packets) in PART_PACKETS.iter().enumerate() {
         packets |= if parts >> part & 1 != 0 { *part_packets } else { 0 };

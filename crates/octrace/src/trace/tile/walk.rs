@@ -87,7 +87,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &
     walk.count_open();
     let bounded = scenery.program.outer == Constant::Everywhere(!scenery.wanted);
     if !bounded {
-        walk.before();
+        walk.before(lead);
     }
     match lead {
         Lead::Beam => walk.inside(waiting),
