@@ -7,19 +7,24 @@
 mod beam;
 mod crossing;
 mod dispatch;
+mod eight;
 mod kernels;
 mod lambert;
-mod lanes;
+pub(crate) mod lanes;
 mod leaf;
 mod outer;
 mod packet;
+mod points;
 mod program;
 mod prune;
 mod stream;
 mod walk;
 
 pub use dispatch::Backend;
+pub(crate) use dispatch::Task;
+pub(crate) use eight::{EightHits, EightRays, lane_of_three};
 pub use lambert::{Brightness, Told};
+pub(crate) use points::points;
 pub use stream::RayTo;
 
 use super::prepared::Prepared;
@@ -29,12 +34,12 @@ use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
-use dispatch::Task;
 use kernels::Chunk;
 use lanes::{Isa, LANES, Stored};
 use leaf::{MAX_CUTS, Slab, Slabs};
 use packet::{Common, Own, Packet};
 use program::Solved;
+use stream::Sorted;
 use walk::{Lead, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
@@ -45,11 +50,11 @@ const PACKET_PX: (usize, usize) = (4, 2);
 const ACROSS: usize = TILE_PX / PACKET_PX.0;
 const DOWN: usize = TILE_PX / PACKET_PX.1;
 /// Packets in a tile.
-const PACKETS: usize = ACROSS * DOWN;
+pub(crate) const PACKETS: usize = ACROSS * DOWN;
 
 /// The packet and the lane of a pixel.
 #[inline(always)]
-fn lane_of(x: usize, y: usize) -> (usize, usize) {
+pub(crate) fn lane_of(x: usize, y: usize) -> (usize, usize) {
     (y / PACKET_PX.1 * ACROSS + x / PACKET_PX.0, y % PACKET_PX.1 * PACKET_PX.0 + x % PACKET_PX.0)
 }
 
@@ -69,8 +74,10 @@ pub struct RayTile {
     chunk: Option<Box<Chunk>>,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
-    /// Rays of a stream, sorted by the signs of their directions.
-    by_signs: [Vec<u32>; 8],
+    /// Rays of a stream, and memory to put them in.
+    sorted: Sorted,
+    eights: Vec<EightRays>,
+    found: Vec<EightHits>,
 }
 
 impl Default for RayTile {
@@ -84,7 +91,9 @@ impl Default for RayTile {
             slabs: [Slab::NOTHING; MAX_CUTS + 1],
             chunk: None,
             alone: Vec::new(),
-            by_signs: Default::default(),
+            sorted: Sorted::default(),
+            eights: Vec::new(),
+            found: Vec::new(),
         }
     }
 }
@@ -155,6 +164,24 @@ impl Tiles<'_> {
     pub fn ray(&self, tile: &RayTile, (x, y): (usize, usize)) -> Ray {
         let (packet, lane) = lane_of(x, y);
         tile.ray(packet, lane)
+    }
+
+    /// The rays of the tile, [`PACKETS`] eights of them, and what they met; a pixel's is where [`lane_of`] says.
+    pub(crate) fn eights(&self, tile: &RayTile, rays: &mut [EightRays], hits: &mut [EightHits]) {
+        for ((packet, rays), hits) in tile.packets.iter().zip(&mut *rays).zip(&mut *hits) {
+            rays.origin = match tile.from_eye {
+                true => tile.beam.eye.to_array().map(|v| Stored([v; LANES])),
+                false => packet.origin,
+            };
+            rays.direction = packet.direction;
+            rays.end = Stored([f64::INFINITY; LANES]);
+            rays.lanes = packet.wanted;
+            (hits.met, hits.entering, hits.flipped) = (0, 0, 0);
+            hits.take(self.tracer, rays, packet, packet.wanted);
+        }
+        for &(number, hit) in &tile.alone {
+            hits[usize::from(number) / LANES].set(usize::from(number) % LANES, hit);
+        }
     }
 
     /// What the ray of a pixel of the tile met.

@@ -1,0 +1,147 @@
+//! Where eight rays meet surfaces, made ready to be lit: what [`Whitted::met`] does for one.
+
+use super::light::EightSeen;
+use super::whitted::{Met, OFFSET, Whitted};
+use crate::geom::{Ray, Vec3};
+use crate::model::Material;
+use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
+use crate::trace::{EightHits, EightRays, Task, lane_of_three, points};
+
+/// What eight rays meet, ready to be lit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EightMet {
+    /// The lanes that meet something. What the others hold are numbers of no extreme size.
+    pub met: u8,
+    pub toward_viewer: [Stored; 3],
+    /// Towards the side that is seen.
+    pub normal: [Stored; 3],
+    /// Where new rays start on that side, and how far off the surface that is.
+    pub above: [Stored; 3],
+    pub offset: Stored,
+    /// The numbers of their materials.
+    materials: [u32; LANES],
+    /// Whether all are of one.
+    alike: bool,
+}
+
+impl EightMet {
+    /// The material of a lane.
+    pub fn material<'a>(&self, lane: usize, integrator: &'a Whitted) -> &'a Material {
+        &integrator.materials()[self.materials[lane] as usize]
+    }
+
+    /// What one of them meets; `ray` gets there at `t`.
+    pub fn lane<'a>(&self, lane: usize, ray: &Ray, t: f64, integrator: &'a Whitted) -> Met<'a> {
+        Met {
+            position: ray.at(t),
+            material: self.material(lane, integrator),
+            toward_viewer: lane_of_three(&self.toward_viewer, lane),
+            normal: lane_of_three(&self.normal, lane),
+            above: lane_of_three(&self.above, lane),
+            offset: self.offset.0[lane],
+        }
+    }
+
+    /// Finds the materials.
+    fn find_materials(&mut self, integrator: &Whitted, hits: &EightHits) {
+        self.alike = true;
+        if integrator.materials().len() == 1 {
+            self.materials = [0; LANES];
+            return;
+        }
+        let first = hits.met.trailing_zeros() as usize & (LANES - 1);
+        self.materials = [integrator.material_number(hits.leaves[first]); LANES];
+        for lane in (first + 1..LANES).filter(|lane| hits.met >> lane & 1 != 0) {
+            if hits.leaves[lane] != hits.leaves[first] {
+                let number = integrator.material_number(hits.leaves[lane]);
+                self.alike &= number == self.materials[first];
+                self.materials[lane] = number;
+            }
+        }
+    }
+
+    /// Numbers of the materials, from a list with some for each.
+    #[inline(always)]
+    pub fn of_materials<I: Isa, const N: usize>(&self, list: &[[f64; N]]) -> [F64s<I>; N] {
+        let mut numbers = [F64s::zero(); N];
+        if self.alike {
+            let one = &list[self.materials[0] as usize];
+            for (number, &one) in numbers.iter_mut().zip(one) {
+                *number = F64s::splat(one);
+            }
+            return numbers;
+        }
+        let mut stored = [Stored::default(); N];
+        for (lane, &material) in self.materials.iter().enumerate() {
+            for (stored, &number) in stored.iter_mut().zip(&list[material as usize]) {
+                stored.0[lane] = number;
+            }
+        }
+        for (number, stored) in numbers.iter_mut().zip(&stored) {
+            *number = F64s::load(stored);
+        }
+        numbers
+    }
+}
+
+/// Finds out what many rays meet, and what is seen of it without any light's help: what shines by ambient light, and the
+/// background.
+pub(super) struct Meet<'a> {
+    pub integrator: &'a Whitted<'a>,
+    pub rays: &'a [EightRays],
+    pub hits: &'a [EightHits],
+    /// Which rays come from the camera, if through glass.
+    pub direct: &'a [u8],
+    pub met: &'a mut [EightMet],
+    pub seen: &'a mut [EightSeen],
+}
+
+impl Task for Meet<'_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { integrator, rays, hits, direct, met, seen } = self;
+        let (of_direct, of_others) = (integrator.nothing(true), integrator.nothing(false));
+        for number in 0..rays.len() {
+            let (rays, hits, met, seen) = (&rays[number], &hits[number], &mut met[number], &mut seen[number]);
+            let is_direct = Mask::<I>::from_bits(direct[number]);
+            let nothing = [
+                is_direct.select(F64s::splat(of_direct.color.r), F64s::splat(of_others.color.r)),
+                is_direct.select(F64s::splat(of_direct.color.g), F64s::splat(of_others.color.g)),
+                is_direct.select(F64s::splat(of_direct.color.b), F64s::splat(of_others.color.b)),
+            ];
+            let alpha = is_direct.select(F64s::splat(of_direct.alpha), F64s::splat(of_others.alpha));
+            met.met = hits.met;
+            if hits.met == 0 {
+                let [r, g, b] = nothing;
+                *seen = EightSeen { color: [r.stored(), g.stored(), b.stored()], alpha: alpha.stored() };
+                continue;
+            }
+            met.find_materials(integrator, hits);
+            surface::<I>(integrator, rays, hits, met);
+            let there = Mask::<I>::from_bits(hits.met);
+            let ambient = met.of_materials::<I, 3>(integrator.ambients());
+            for axis in 0..3 {
+                seen.color[axis] = there.select(ambient[axis], nothing[axis]).stored();
+            }
+            seen.alpha = there.select(F64s::splat(1.0), alpha).stored();
+        }
+    }
+}
+
+/// As [`Whitted::met`], but for the material.
+#[inline(always)]
+fn surface<I: Isa>(integrator: &Whitted, rays: &EightRays, hits: &EightHits, met: &mut EightMet) {
+    let (position, normal) = points::<I>(integrator.tracer(), rays, hits);
+    let direction = Vector::<F64s<I>>::load(&rays.direction);
+    let (unit, found) = direction.normalized();
+    let toward_viewer = -Vector::select(found, unit, Vector::from_one(Vec3::Z));
+    let from_behind = normal.dot(toward_viewer).lt(F64s::zero());
+    let normal = Vector::select(from_behind, -normal, normal);
+    let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
+    let travelled = t * direction.max_abs();
+    let offset = F64s::splat(OFFSET) * F64s::splat(integrator.size()).max(position.max_abs()).max(travelled);
+    met.toward_viewer = toward_viewer.stored();
+    met.normal = normal.stored();
+    met.above = (position + normal * offset).stored();
+    met.offset = offset.stored();
+}
