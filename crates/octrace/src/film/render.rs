@@ -1,6 +1,7 @@
 //! The render loop: tiles are the unit of threads, progress and interruption; the film does not depend on their order.
 
 use super::Film;
+use super::develop::Develop;
 use crate::exec::{Cancelled, Exec};
 use crate::model::{Camera, CameraRays, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
 use crate::shade::{EightSeen, Lighting, RayCounts, RayTree, Recorder, Wave, Whitted, Workshop};
@@ -158,23 +159,23 @@ impl Tile {
         let size = ((view.width_px - corner.0).min(TILE_PX), (view.height_px - corner.1).min(TILE_PX));
         let samples = view.samples.max(1);
         let mut stats = RenderStats::default();
-        sums.clear();
-        sums.resize(EIGHTS, EightSeen::default());
         scratch.counters = Counters::default();
+        sums.clear();
         for sample in 0..samples {
             camera.trace(corner, size, sample_place(sample, samples), (rays, scratch), wave.camera_rays(EIGHTS));
             let mut workshop = Workshop { backend: camera.backend, tile: rays, scratch, counts: &mut stats.rays };
-            for (sum, seen) in sums.iter_mut().zip(wave.light(integrator, &mut workshop)) {
+            let seen = wave.light(integrator, &mut workshop);
+            if sample == 0 {
+                sums.extend_from_slice(seen);
+                continue;
+            }
+            for (sum, seen) in sums.iter_mut().zip(seen) {
                 sum.add(seen);
             }
         }
         let share = 1.0 / f64::from(samples);
-        let mut pixels = Vec::with_capacity((size.0 * size.1) as usize);
-        for (x, y) in (0..size.1 as usize).flat_map(|y| (0..size.0 as usize).map(move |x| (x, y))) {
-            let (eight, lane) = lane_of(x, y);
-            let [r, g, b] = &sums[eight].color;
-            pixels.push([r, g, b, &sums[eight].alpha].map(|v| (v.0[lane] * share) as f32));
-        }
+        let mut pixels = vec![[0.0; 4]; (size.0 * size.1) as usize];
+        camera.backend.run(Develop { seen: sums, share, width: size.0 as usize, pixels: &mut pixels });
         stats.counters = scratch.counters;
         Self { width: size.0, pixels, stats }
     }

@@ -2,12 +2,11 @@
 //! so that lanes can work on it.
 
 use super::TileHit;
-use super::lanes::{LANES, Stored};
+use super::lanes::{F64s, Isa, LANES, Mask, Stored};
 use super::packet::Packet;
 use crate::compile::{Catalog, Literal, Word};
 use crate::geom::{Hit, Ray, Vec3};
 use crate::surface::Surface;
-use crate::trace::Tracer;
 use crate::trace::roots::hit_of;
 
 /// Eight rays, each followed up to a parameter.
@@ -87,46 +86,46 @@ impl EightHits {
         })
     }
 
+    /// Nothing is met.
+    #[inline(always)]
+    pub fn forget(&mut self) {
+        (self.met, self.entering, self.flipped) = (0, 0, 0);
+    }
+
     /// Takes over what some rays of a packet met, each in its lane.
-    pub(super) fn take(&mut self, tracer: &Tracer, rays: &EightRays, packet: &Packet, lanes: u8) {
+    #[inline(always)]
+    pub(super) fn take<I: Isa>(&mut self, catalog: &Catalog, rays: &EightRays, packet: &Packet, lanes: u8) {
         let mut left = packet.met & !packet.given_up & lanes;
         while left != 0 {
             // All lanes that met the same literal.
             let word = packet.words[left.trailing_zeros() as usize & (LANES - 1)];
-            let mut same = 0;
-            for (lane, &other) in packet.words.iter().enumerate() {
-                same |= u8::from(other == word) << lane;
-            }
-            same &= left;
+            let same = left & !I::differing(&packet.words, word);
             left &= !same;
-            self.take_alike(&tracer.catalog, rays, packet, word, same);
+            let Word::Literal { index, negated } = Word::decode(word) else { continue };
+            let Literal { surface, leaf } = catalog.literals[index as usize];
+            if let Surface::Mesh(_) = catalog.surfaces[surface as usize] {
+                self.take_facets(catalog, rays, packet, word, same);
+                continue;
+            }
+            let mask = Mask::<I>::from_bits(same);
+            self.t = mask.select(F64s::load(&packet.t), F64s::load(&self.t)).stored();
+            self.bodies = mask.select_words(packet.bodies, self.bodies);
+            self.surfaces = mask.select_words([surface; LANES], self.surfaces);
+            self.leaves = mask.select_words([leaf; LANES], self.leaves);
+            self.met |= same;
+            self.entering = self.entering & !same | packet.entering & same;
+            self.flipped = if negated { self.flipped | same } else { self.flipped & !same };
         }
     }
 
-    /// Takes over what some rays met: all the same literal.
-    fn take_alike(&mut self, catalog: &Catalog, rays: &EightRays, packet: &Packet, word: u32, lanes: u8) {
-        let Word::Literal { index, negated } = Word::decode(word) else {
-            unreachable!("only literals are seen to change a program");
-        };
-        let Literal { surface, leaf } = catalog.literals[index as usize];
-        if let Surface::Mesh(_) = catalog.surfaces[surface as usize] {
-            for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
-                let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
-                let hit = hit_of(catalog, word, &rays.ray(lane), t, entering);
-                self.set(lane, Some((packet.bodies[lane] as usize, hit)));
-            }
-            return;
+    /// Takes over what some rays met, all the same mesh: it has many surfaces.
+    #[inline(never)]
+    fn take_facets(&mut self, catalog: &Catalog, rays: &EightRays, packet: &Packet, word: u32, lanes: u8) {
+        for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
+            let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
+            let hit = hit_of(catalog, word, &rays.ray(lane), t, entering);
+            self.set(lane, Some((packet.bodies[lane] as usize, hit)));
         }
-        for lane in 0..LANES {
-            if lanes >> lane & 1 != 0 {
-                self.t.0[lane] = packet.t.0[lane];
-                self.bodies[lane] = packet.bodies[lane];
-                (self.surfaces[lane], self.leaves[lane]) = (surface, leaf);
-            }
-        }
-        self.met |= lanes;
-        self.entering = self.entering & !lanes | packet.entering & lanes;
-        self.flipped = if negated { self.flipped | lanes } else { self.flipped & !lanes };
     }
 
     /// Sets what the ray of a lane meets.

@@ -30,12 +30,13 @@ pub use stream::RayTo;
 use super::prepared::Prepared;
 use super::roots::hit_of;
 use super::{Scratch, Tracer};
+use crate::compile::Catalog;
 use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
 use kernels::Chunk;
-use lanes::{Isa, LANES, Stored};
+use lanes::{F64s, Isa, LANES, Stored, Vector};
 use leaf::{MAX_CUTS, Slab, Slabs};
 use packet::{Common, Own, Packet};
 use program::Solved;
@@ -45,7 +46,7 @@ use walk::{Lead, Scenery, Waiting, walk};
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
 /// Pixels of a packet along x, and along y.
-const PACKET_PX: (usize, usize) = (4, 2);
+pub(crate) const PACKET_PX: (usize, usize) = (4, 2);
 /// Packets along x, and along y.
 const ACROSS: usize = TILE_PX / PACKET_PX.0;
 const DOWN: usize = TILE_PX / PACKET_PX.1;
@@ -168,17 +169,7 @@ impl Tiles<'_> {
 
     /// The rays of the tile, [`PACKETS`] eights of them, and what they met; a pixel's is where [`lane_of`] says.
     pub(crate) fn eights(&self, tile: &RayTile, rays: &mut [EightRays], hits: &mut [EightHits]) {
-        for ((packet, rays), hits) in tile.packets.iter().zip(&mut *rays).zip(&mut *hits) {
-            rays.origin = match tile.from_eye {
-                true => tile.beam.eye.to_array().map(|v| Stored([v; LANES])),
-                false => packet.origin,
-            };
-            rays.direction = packet.direction;
-            rays.end = Stored([f64::INFINITY; LANES]);
-            rays.lanes = packet.wanted;
-            (hits.met, hits.entering, hits.flipped) = (0, 0, 0);
-            hits.take(self.tracer, rays, packet, packet.wanted);
-        }
+        self.backend.run(TakeTile { catalog: &self.tracer.catalog, tile, rays, hits });
         for &(number, hit) in &tile.alone {
             hits[usize::from(number) / LANES].set(usize::from(number) % LANES, hit);
         }
@@ -270,6 +261,29 @@ impl Task for TraceTile<'_, '_> {
                 // The camera is on one side of everything.
                 packet.given_up |= packet.started_there;
             }
+        }
+    }
+}
+
+/// [`Tiles::eights`], but for the rays that were given up.
+struct TakeTile<'a> {
+    catalog: &'a Catalog,
+    tile: &'a RayTile,
+    rays: &'a mut [EightRays],
+    hits: &'a mut [EightHits],
+}
+
+impl Task for TakeTile<'_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { catalog, tile, rays, hits } = self;
+        let eye = Vector::<F64s<I>>::from_one(tile.beam.eye).stored();
+        let end = F64s::<I>::infinity().stored();
+        for ((packet, rays), hits) in tile.packets.iter().zip(rays).zip(hits) {
+            rays.origin = if tile.from_eye { eye } else { packet.origin };
+            (rays.direction, rays.end, rays.lanes) = (packet.direction, end, packet.wanted);
+            hits.forget();
+            hits.take::<I>(catalog, rays, packet, packet.wanted);
         }
     }
 }

@@ -125,8 +125,11 @@ impl Packet {
     }
 
     /// Takes some of these rays.
-    pub fn follow(&mut self, rays: &EightRays, lanes: u8) {
-        (self.origin, self.direction, self.t) = (rays.origin, rays.direction, rays.end);
+    #[inline(always)]
+    pub fn follow<I: Isa>(&mut self, rays: &EightRays, lanes: u8) {
+        self.origin = Vector::<F64s<I>>::load(&rays.origin).stored();
+        self.direction = Vector::<F64s<I>>::load(&rays.direction).stored();
+        self.t = F64s::<I>::load(&rays.end).stored();
         (self.wanted, self.met, self.given_up) = (lanes, 0, 0);
     }
 

@@ -108,7 +108,7 @@ impl Tracer {
         hits: &mut [EightHits],
     ) {
         for hits in &mut *hits {
-            (hits.met, hits.entering, hits.flipped) = (0, 0, 0);
+            hits.forget();
         }
         self.stream(rays, backend, tile, scratch, &mut Answers::Hits(hits));
     }
@@ -148,9 +148,10 @@ impl Tracer {
                 let (now, loose_now);
                 (now, left) = left.split_at(left.len().min(PACKETS));
                 (loose_now, loose_left) = loose_left.split_at(loose_left.len().min((PACKETS - now.len()) * LANES));
-                tile.load(rays, now, loose_now);
-                backend.run(TraceStream { tracer: self, signs, tile, scratch });
-                self.answer(rays, now, loose_now, tile, scratch, answers);
+                let packed = Packed { rays, together: now, loose: loose_now };
+                tile.load_loose(&packed);
+                backend.run(TraceStream { tracer: self, signs, packed, tile, scratch, answers });
+                self.answer_others(&packed, tile, scratch, answers);
             }
             together.clear();
             loose.clear();
@@ -158,24 +159,14 @@ impl Tracer {
         tile.sorted = sorted;
     }
 
-    /// What rays of the tile met, as [`RayTile::load`] put them there.
-    fn answer(
-        &self,
-        rays: &[EightRays],
-        together: &[(u32, u8)],
-        loose: &[u32],
-        tile: &RayTile,
-        scratch: &mut Scratch,
-        answers: &mut Answers,
-    ) {
+    /// What those rays met that were loose, or given up.
+    fn answer_others(&self, packed: &Packed, tile: &RayTile, scratch: &mut Scratch, answers: &mut Answers) {
+        let Packed { rays, together, loose } = *packed;
         for (&(number, lanes), packet) in together.iter().zip(&tile.packets) {
-            let number = number as usize;
-            match answers {
-                Answers::Hits(hits) => hits[number].take(self, &rays[number], packet, lanes),
-                Answers::Met(met) => met[number] |= packet.met & !packet.given_up & lanes,
-            }
-            for lane in (0..LANES).filter(|lane| packet.given_up & lanes & 1 << lane != 0) {
-                self.answer_alone(rays, (number, lane), scratch, answers);
+            let mut left = packet.given_up & lanes;
+            while left != 0 {
+                self.answer_alone(rays, (number as usize, left.trailing_zeros() as usize), scratch, answers);
+                left &= left - 1;
             }
         }
         for (place, &number) in loose.iter().enumerate() {
@@ -209,22 +200,26 @@ impl Tracer {
     }
 }
 
+/// Rays whose directions have the same signs, as many as go into a tile: those that are together first.
+#[derive(Clone, Copy)]
+struct Packed<'a> {
+    rays: &'a [EightRays],
+    together: &'a [(u32, u8)],
+    loose: &'a [u32],
+}
+
 impl RayTile {
-    /// Takes rays whose directions have the same signs.
-    fn load(&mut self, rays: &[EightRays], together: &[(u32, u8)], loose: &[u32]) {
-        self.from_eye = false;
-        let (whole, rest) = self.packets.split_at_mut(together.len());
-        for (packet, &(number, lanes)) in whole.iter_mut().zip(together) {
-            packet.follow(&rays[number as usize], lanes);
-        }
-        for packet in &mut *rest {
+    /// Takes loose rays.
+    fn load_loose(&mut self, packed: &Packed) {
+        let packets = &mut self.packets[packed.together.len()..];
+        for packet in &mut *packets {
             packet.forget();
         }
-        for (packet, loose) in rest.iter_mut().zip(loose.chunks(LANES)) {
+        for (packet, loose) in packets.iter_mut().zip(packed.loose.chunks(LANES)) {
             for lane in 0..LANES {
                 // Lanes without a ray of their own shall hold nothing unusual either.
                 let number = loose[lane.min(loose.len() - 1)] as usize;
-                packet.follow_one(lane, &rays[number / LANES], number % LANES);
+                packet.follow_one(lane, &packed.rays[number / LANES], number % LANES);
             }
             packet.wanted = u8::MAX >> (LANES - loose.len());
         }
@@ -292,46 +287,65 @@ fn usual_lanes<I: Isa>(usual: &Usual, rays: &EightRays) -> u8 {
     (largest.ge(least) & largest.lt(most) & away.le(F64s::splat(usual.far)) & ahead).bits()
 }
 
-/// Rays whose directions have the same signs.
-struct TraceStream<'a> {
+/// Finds the answers for rays, but for those that are loose or given up: what those met is left in the tile.
+struct TraceStream<'a, 'b, 'c> {
     tracer: &'a Tracer,
     signs: usize,
+    packed: Packed<'a>,
     tile: &'a mut RayTile,
     scratch: &'a mut Scratch,
+    answers: &'b mut Answers<'c>,
 }
 
-impl Task for TraceStream<'_> {
+impl Task for TraceStream<'_, '_, '_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { tracer, signs, tile, scratch } = self;
+        let Self { tracer, signs, packed: Packed { rays, together, .. }, tile, scratch, answers } = self;
+        tile.from_eye = false;
+        for (packet, &(number, lanes)) in tile.packets.iter_mut().zip(together) {
+            packet.follow::<I>(&rays[number as usize], lanes);
+        }
         for packet in tile.packets.iter_mut().filter(|packet| packet.wanted != 0) {
             packet.prepare::<I>();
         }
-        for (number, body) in tracer.bodies.iter().enumerate() {
-            let Some(octree) = body.octree() else { continue };
-            for packet in &mut tile.packets {
-                packet.open = packet.wanted & !packet.given_up;
-                packet.started_there = 0;
+        follow::<I>(tracer, signs, tile, scratch);
+        for (packet, &(number, lanes)) in tile.packets.iter().zip(together) {
+            let number = number as usize;
+            match answers {
+                Answers::Hits(hits) => hits[number].take::<I>(&tracer.catalog, &rays[number], packet, lanes),
+                Answers::Met(met) => met[number] |= packet.met & !packet.given_up & lanes,
             }
-            // First those that start outside; it turns out which do not.
-            for wanted in [true, false] {
-                let (catalog, program) = (&tracer.catalog, &body.program);
-                let (body, only_plain) = (number as u32, tracer.only_plain);
-                let scenery = Scenery { catalog, program, octree, wanted, body, only_plain };
-                walk::<I, Own>(&scenery, Lead::Signs(signs), tile, scratch);
-                let mut some_started_inside = false;
-                for packet in &mut tile.packets {
-                    some_started_inside |= packet.started_there != 0;
-                    packet.open = packet.started_there;
-                    packet.started_there = 0;
-                    if !wanted {
-                        // On neither side, as it seems.
-                        packet.given_up |= packet.open;
-                    }
+        }
+    }
+}
+
+/// Follows the rays of a tile through all bodies.
+#[inline(always)]
+fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
+    for (number, body) in tracer.bodies.iter().enumerate() {
+        let Some(octree) = body.octree() else { continue };
+        for packet in &mut tile.packets {
+            packet.open = packet.wanted & !packet.given_up;
+            packet.started_there = 0;
+        }
+        // First those that start outside; it turns out which do not.
+        for wanted in [true, false] {
+            let (catalog, program) = (&tracer.catalog, &body.program);
+            let (body, only_plain) = (number as u32, tracer.only_plain);
+            let scenery = Scenery { catalog, program, octree, wanted, body, only_plain };
+            walk::<I, Own>(&scenery, Lead::Signs(signs), tile, scratch);
+            let mut some_started_inside = false;
+            for packet in &mut tile.packets {
+                some_started_inside |= packet.started_there != 0;
+                packet.open = packet.started_there;
+                packet.started_there = 0;
+                if !wanted {
+                    // On neither side, as it seems.
+                    packet.given_up |= packet.open;
                 }
-                if !some_started_inside {
-                    break;
-                }
+            }
+            if !some_started_inside {
+                break;
             }
         }
     }
