@@ -59,7 +59,7 @@ fn weights<I: Isa>(
     cosine: F64s<I>,
     facing: Mask<I>,
 ) -> [F64s<I>; 3] {
-    let [r, g, b, kd, ks, shininess] = met.of_materials::<I, 6>(integrator.coats());
+    let [r, g, b, kd, ks, shininess] = met.materials.pick::<I, 6>(&integrator.materials().coats);
     let normal = Vector::<F64s<I>>::load(&met.normal);
     let towards = -unit;
     let mirrored = towards - normal * (F64s::splat(2.0) * normal.dot(towards));
@@ -74,31 +74,49 @@ fn weights<I: Isa>(
     [r * diffuse + specular, g * diffuse + specular, b * diffuse + specular]
 }
 
+/// What share of a light arrives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Arrives<'a> {
+    /// All, but on those rays on which something is in the way.
+    Unless(&'a [u8]),
+    /// So much: red, green, blue.
+    Share(&'a [[Stored; 3]]),
+}
+
 /// Adds a light where it arrives.
 pub(super) struct AddLight<'a> {
     pub intensity: Rgb,
-    pub shadows: &'a [EightRays],
+    /// The rays to the light.
+    pub lit: &'a [u8],
     pub factors: &'a [EightFactors],
-    /// The rays on which something is in its way.
-    pub blocked: &'a [u8],
+    pub arrives: Arrives<'a>,
     pub seen: &'a mut [EightSeen],
 }
 
 impl Task for AddLight<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { intensity: Rgb { r, g, b }, shadows, factors, blocked, seen } = self;
+        let Self { intensity: Rgb { r, g, b }, lit, factors, arrives, seen } = self;
         for (number, seen) in seen.iter_mut().enumerate() {
-            let lit = Mask::<I>::from_bits(shadows[number].lanes);
+            let lit = Mask::<I>::from_bits(lit[number]);
             if !lit.any() {
                 continue;
             }
-            let share = Mask::<I>::from_bits(blocked[number]).select(F64s::zero(), F64s::splat(1.0));
-            for (axis, intensity) in [r, g, b].into_iter().enumerate() {
-                let color = F64s::load(&seen.color[axis]);
-                let added = F64s::splat(intensity) * share * F64s::load(&factors[number][axis]);
-                seen.color[axis] = lit.select(color + added, color).stored();
-            }
+            let share = match arrives {
+                Arrives::Unless(blocked) => {
+                    let share = Mask::<I>::from_bits(blocked[number]).select(F64s::zero(), F64s::splat(1.0));
+                    Vector::new(share, share, share)
+                }
+                Arrives::Share(share) => Vector::load(&share[number]),
+            };
+            let factor = Vector::<F64s<I>>::load(&factors[number]);
+            let color = Vector::<F64s<I>>::load(&seen.color);
+            let sum = Vector::new(
+                color.x + F64s::splat(r) * share.x * factor.x,
+                color.y + F64s::splat(g) * share.y * factor.y,
+                color.z + F64s::splat(b) * share.z * factor.z,
+            );
+            seen.color = Vector::select(lit, sum, color).stored();
         }
     }
 }

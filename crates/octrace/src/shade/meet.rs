@@ -1,11 +1,11 @@
 //! Where eight rays meet surfaces, made ready to be lit: what [`Whitted::met`] does for one.
 
 use super::light::EightSeen;
-use super::whitted::{Met, OFFSET, Whitted};
-use crate::geom::{Ray, Vec3};
-use crate::model::Material;
-use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
-use crate::trace::{EightHits, EightRays, Task, lane_of_three, points};
+use super::materials::EightMaterials;
+use super::whitted::{OFFSET, Whitted};
+use crate::geom::Vec3;
+use crate::trace::lanes::{F64s, Isa, Mask, Stored, Vector};
+use crate::trace::{EightHits, EightRays, Task, points};
 
 /// What eight rays meet, ready to be lit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,70 +18,7 @@ pub(super) struct EightMet {
     /// Where new rays start on that side, and how far off the surface that is.
     pub above: [Stored; 3],
     pub offset: Stored,
-    /// The numbers of their materials.
-    materials: [u32; LANES],
-    /// Whether all are of one.
-    alike: bool,
-}
-
-impl EightMet {
-    /// The material of a lane.
-    pub fn material<'a>(&self, lane: usize, integrator: &'a Whitted) -> &'a Material {
-        &integrator.materials()[self.materials[lane] as usize]
-    }
-
-    /// What one of them meets; `ray` gets there at `t`.
-    pub fn lane<'a>(&self, lane: usize, ray: &Ray, t: f64, integrator: &'a Whitted) -> Met<'a> {
-        Met {
-            position: ray.at(t),
-            material: self.material(lane, integrator),
-            toward_viewer: lane_of_three(&self.toward_viewer, lane),
-            normal: lane_of_three(&self.normal, lane),
-            above: lane_of_three(&self.above, lane),
-            offset: self.offset.0[lane],
-        }
-    }
-
-    /// Finds the materials.
-    fn find_materials(&mut self, integrator: &Whitted, hits: &EightHits) {
-        self.alike = true;
-        if integrator.materials().len() == 1 {
-            self.materials = [0; LANES];
-            return;
-        }
-        let first = hits.met.trailing_zeros() as usize & (LANES - 1);
-        self.materials = [integrator.material_number(hits.leaves[first]); LANES];
-        for lane in (first + 1..LANES).filter(|lane| hits.met >> lane & 1 != 0) {
-            if hits.leaves[lane] != hits.leaves[first] {
-                let number = integrator.material_number(hits.leaves[lane]);
-                self.alike &= number == self.materials[first];
-                self.materials[lane] = number;
-            }
-        }
-    }
-
-    /// Numbers of the materials, from a list with some for each.
-    #[inline(always)]
-    pub fn of_materials<I: Isa, const N: usize>(&self, list: &[[f64; N]]) -> [F64s<I>; N] {
-        let mut numbers = [F64s::zero(); N];
-        if self.alike {
-            let one = &list[self.materials[0] as usize];
-            for (number, &one) in numbers.iter_mut().zip(one) {
-                *number = F64s::splat(one);
-            }
-            return numbers;
-        }
-        let mut stored = [Stored::default(); N];
-        for (lane, &material) in self.materials.iter().enumerate() {
-            for (stored, &number) in stored.iter_mut().zip(&list[material as usize]) {
-                stored.0[lane] = number;
-            }
-        }
-        for (number, stored) in numbers.iter_mut().zip(&stored) {
-            *number = F64s::load(stored);
-        }
-        numbers
-    }
+    pub materials: EightMaterials,
 }
 
 /// Finds out what many rays meet, and what is seen of it without any light's help: what shines by ambient light, and the
@@ -116,10 +53,10 @@ impl Task for Meet<'_> {
                 *seen = EightSeen { color: [r.stored(), g.stored(), b.stored()], alpha: alpha.stored() };
                 continue;
             }
-            met.find_materials(integrator, hits);
+            met.materials = EightMaterials::of(hits, integrator.materials(), integrator.tracer());
             surface::<I>(integrator, rays, hits, met);
             let there = Mask::<I>::from_bits(hits.met);
-            let ambient = met.of_materials::<I, 3>(integrator.ambients());
+            let ambient = met.materials.pick::<I, 3>(&integrator.materials().ambients);
             for axis in 0..3 {
                 seen.color[axis] = there.select(ambient[axis], nothing[axis]).stored();
             }
@@ -138,10 +75,21 @@ fn surface<I: Isa>(integrator: &Whitted, rays: &EightRays, hits: &EightHits, met
     let from_behind = normal.dot(toward_viewer).lt(F64s::zero());
     let normal = Vector::select(from_behind, -normal, normal);
     let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
-    let travelled = t * direction.max_abs();
-    let offset = F64s::splat(OFFSET) * F64s::splat(integrator.size()).max(position.max_abs()).max(travelled);
+    let offset = offset::<I>(integrator, direction, t, position);
     met.toward_viewer = toward_viewer.stored();
     met.normal = normal.stored();
     met.above = (position + normal * offset).stored();
     met.offset = offset.stored();
+}
+
+/// As [`Whitted::offset`].
+#[inline(always)]
+pub(super) fn offset<I: Isa>(
+    integrator: &Whitted,
+    direction: Vector<F64s<I>>,
+    t: F64s<I>,
+    position: Vector<F64s<I>>,
+) -> F64s<I> {
+    let travelled = t * direction.max_abs();
+    F64s::splat(OFFSET) * F64s::splat(integrator.size()).max(position.max_abs()).max(travelled)
 }

@@ -1,7 +1,9 @@
 //! From hits to light.
 
+mod branch;
 mod light;
 mod lit;
+mod materials;
 mod meet;
 mod optics;
 mod path;

@@ -1,29 +1,31 @@
 //! What stands between many surfaces and a light.
 //!
-//! Past opaque things one needs to know only whether there is anything. Where light may pass, the first thing in its way is
-//! looked at: if light passes that, its way is followed to the end.
+//! Past opaque things one needs to know only whether there is anything. Where light may pass, its way is followed from one
+//! transparent surface to the next.
 
 use super::light::EightSeen;
-use super::lit::{AddLight, EightFactors, SeeLight};
-use super::meet::EightMet;
+use super::lit::{AddLight, Arrives, EightFactors, SeeLight};
+use super::materials::EightMaterials;
+use super::meet::{EightMet, offset};
 use super::wave::Workshop;
-use super::whitted::{LightsWay, Whitted};
-use crate::model::{Light, Rgb};
-use crate::trace::lanes::{LANES, Stored};
-use crate::trace::{EightHits, EightRays, RayTo, TileHit};
+use super::whitted::{LEAST_WEIGHT, MAX_SHADOW_CROSSINGS, Whitted};
+use crate::model::Light;
+use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
+use crate::trace::{EightHits, EightRays, Task, points};
 
 /// The memory of a worker for shadow rays.
 #[derive(Debug, Default)]
 pub(super) struct Shadows {
+    /// The rays to a light: their lanes are those that have not got there.
     rays: Vec<EightRays>,
+    /// The lanes with rays to the light.
+    lit: Vec<u8>,
     factors: Vec<EightFactors>,
     /// The rays on which something is in the light's way.
     blocked: Vec<u8>,
     hits: Vec<EightHits>,
-    /// The ways of light past transparent things, and the ray and the lane to which each leads.
-    ways: Vec<(usize, usize, LightsWay)>,
-    rest: Vec<RayTo>,
-    rest_hits: Vec<TileHit>,
+    /// What share of the light comes through, as far as one knows.
+    shares: Vec<[Stored; 3]>,
 }
 
 impl Shadows {
@@ -36,63 +38,104 @@ impl Shadows {
         seen: &mut [EightSeen],
         workshop: &mut Workshop,
     ) {
-        if self.rays.len() < met.len() {
-            self.rays.resize(met.len(), EightRays::NONE);
-            self.factors.resize(met.len(), [Stored::default(); 3]);
-            self.blocked.resize(met.len(), 0);
-            self.hits.resize(met.len(), EightHits::default());
-        }
         let count = met.len();
-        let (shadows, factors) = (&mut self.rays[..count], &mut self.factors[..count]);
+        self.rays.resize(count, EightRays::NONE);
+        self.factors.resize(count, [Stored::default(); 3]);
+        let (shadows, factors) = (&mut self.rays[..], &mut self.factors[..]);
         workshop.backend.run(SeeLight { integrator, light, met, shadows, factors });
-        workshop.counts.shadow += shadows.iter().map(|eight| u64::from(eight.lanes.count_ones())).sum::<u64>();
-        match integrator.filters() {
-            true => self.trace_filtered(integrator, count, workshop),
+        self.lit.clear();
+        self.lit.extend(self.rays.iter().map(|eight| eight.lanes));
+        workshop.counts.shadow += self.lit.iter().map(|lanes| u64::from(lanes.count_ones())).sum::<u64>();
+        let is_filtered = integrator.materials().transparent;
+        match is_filtered {
+            true => self.follow(integrator, light, workshop),
             false => {
                 let Workshop { backend, tile, scratch, .. } = workshop;
-                let blocked = &mut self.blocked[..count];
-                integrator.tracer().eights_met(&self.rays[..count], *backend, tile, scratch, blocked);
+                self.blocked.resize(count, 0);
+                integrator.tracer().eights_met(&self.rays, *backend, tile, scratch, &mut self.blocked);
             }
         }
+        let arrives = if is_filtered { Arrives::Share(&self.shares) } else { Arrives::Unless(&self.blocked) };
         let (Light::Point { intensity, .. } | Light::Directional { intensity, .. }) = *light;
-        let (shadows, factors, blocked) = (&self.rays[..count], &self.factors[..count], &self.blocked[..count]);
-        workshop.backend.run(AddLight { intensity, shadows, factors, blocked, seen });
-        for (number, lane, LightsWay { share, .. }) in self.ways.drain(..) {
-            let [r, g, b] = self.factors[number].map(|factor| factor.0[lane]);
-            let mut sum = seen[number].lane(lane);
-            sum.color += intensity * share * Rgb::new(r, g, b);
-            seen[number].put(lane, sum);
-        }
+        workshop.backend.run(AddLight { intensity, lit: &self.lit, factors: &self.factors, arrives, seen });
     }
 
-    /// Traces shadow rays, and follows those that transparent things let pass.
-    fn trace_filtered(&mut self, integrator: &Whitted, count: usize, workshop: &mut Workshop) {
-        let Self { rays, blocked, hits, ways, rest, rest_hits, .. } = self;
+    /// Follows rays past transparent things.
+    fn follow(&mut self, integrator: &Whitted, light: &Light, workshop: &mut Workshop) {
         let Workshop { backend, tile, scratch, .. } = workshop;
-        let (rays, hits) = (&rays[..count], &mut hits[..count]);
-        integrator.tracer().eight_hits(rays, *backend, tile, scratch, hits);
-        for (number, (rays, hits)) in rays.iter().zip(&*hits).enumerate() {
-            blocked[number] = hits.met;
-            for lane in (0..LANES).filter(|lane| hits.met >> lane & 1 != 0) {
-                if integrator.material_of(hits.leaves[lane]).is_transparent() {
-                    let mut way = LightsWay::new(&rays.ray(lane), rays.end.0[lane]);
-                    integrator.pass(&mut way, hits.hit(lane));
-                    ways.push((number, lane, way));
-                }
+        let Self { rays, hits, shares, .. } = self;
+        hits.resize(rays.len(), EightHits::default());
+        shares.clear();
+        shares.resize(rays.len(), [Stored([1.0; LANES]); 3]);
+        let is_bounded = matches!(light, Light::Point { .. });
+        let mut crossings = 0;
+        while rays.iter().any(|eight| eight.lanes != 0) {
+            integrator.tracer().eight_hits(rays, *backend, tile, scratch, hits);
+            crossings += 1;
+            let is_last = crossings == MAX_SHADOW_CROSSINGS;
+            backend.run(Pass { integrator, is_bounded, is_last, hits, rays, shares });
+        }
+    }
+}
+
+/// Lets light pass what rays to it meet first: what [`Whitted::pass`] does for one. Rays that got to the light, or do not
+/// get there, are followed no more.
+struct Pass<'a> {
+    integrator: &'a Whitted<'a>,
+    /// Whether the light is at the rays' ends, and not infinitely far away.
+    is_bounded: bool,
+    /// Whether light passes no more surfaces than this one.
+    is_last: bool,
+    hits: &'a [EightHits],
+    rays: &'a mut [EightRays],
+    shares: &'a mut [[Stored; 3]],
+}
+
+impl Task for Pass<'_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { integrator, is_bounded, is_last, hits, rays, shares } = self;
+        for ((rays, hits), share) in rays.iter_mut().zip(hits).zip(shares) {
+            if hits.met == 0 {
+                rays.lanes = 0;
+            }
+            if rays.lanes == 0 {
+                continue;
+            }
+            let met = Mask::<I>::from_bits(hits.met);
+            let materials = EightMaterials::of(hits, integrator.materials(), integrator.tracer());
+            let [r, g, b] = materials.pick::<I, 3>(&integrator.materials().transmissions);
+            let before = Vector::<F64s<I>>::load(share);
+            let after = Vector::new(before.x * r, before.y * g, before.z * b);
+            let is_faint = after.x.max(after.y).max(after.z).lt(F64s::splat(LEAST_WEIGHT));
+            let passes = met & !(is_faint | Mask::splat(is_last));
+            let black = Vector::new(F64s::zero(), F64s::zero(), F64s::zero());
+            let after = Vector::select(passes, after, black);
+            *share = Vector::select(met, after, before).stored();
+            rays.lanes = 0;
+            if passes.any() {
+                go_on::<I>(integrator, is_bounded, passes, hits, rays);
             }
         }
-        loop {
-            rest.clear();
-            rest.extend(ways.iter().filter_map(|(_, _, way)| way.rest));
-            if rest.is_empty() {
-                break;
-            }
-            rest_hits.clear();
-            rest_hits.resize(rest.len(), None);
-            integrator.tracer().first_hits_into(rest, *backend, tile, scratch, rest_hits);
-            for ((_, _, way), hit) in ways.iter_mut().filter(|(_, _, way)| way.rest.is_some()).zip(&*rest_hits) {
-                integrator.pass(way, *hit);
-            }
-        }
+    }
+}
+
+/// On from the far side of the surface, towards the same light.
+#[inline(always)]
+fn go_on<I: Isa>(integrator: &Whitted, is_bounded: bool, passes: Mask<I>, hits: &EightHits, rays: &mut EightRays) {
+    let (position, normal) = points::<I>(integrator.tracer(), rays, hits);
+    let (origin, direction) = (Vector::<F64s<I>>::load(&rays.origin), Vector::<F64s<I>>::load(&rays.direction));
+    let against = normal.dot(direction).lt(F64s::zero());
+    let along = Vector::select(against, -normal, normal);
+    let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
+    let next = position + along * offset::<I>(integrator, direction, t, position);
+    rays.origin = Vector::select(passes, next, origin).stored();
+    rays.lanes = passes.bits();
+    if is_bounded {
+        let end = origin + direction * F64s::load(&rays.end);
+        let rest = end - next;
+        let is_left = rest.max_abs().gt(F64s::zero());
+        rays.direction = Vector::select(passes & is_left, rest, direction).stored();
+        rays.lanes = (passes & is_left).bits();
     }
 }

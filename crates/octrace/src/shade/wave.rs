@@ -3,11 +3,12 @@
 //! What comes out is what [`Whitted::camera_ray`] makes of each ray by itself, to the bit: the same terms are added in the
 //! same order.
 
+use super::branch::{EightBranches, GoOn};
 use super::light::{EightSeen, RayCounts};
 use super::meet::{EightMet, Meet};
 use super::optics::{Branch, Standing};
 use super::shadows::Shadows;
-use super::whitted::{Whitted, goes_on};
+use super::whitted::Whitted;
 use crate::geom::Vec3;
 use crate::model::Rgb;
 use crate::trace::lanes::LANES;
@@ -30,7 +31,7 @@ pub(crate) struct Wave {
     /// What the present generation meets.
     met: Vec<EightMet>,
     shadows: Shadows,
-    refracted: Vec<(Origin, Branch)>,
+    branches: Vec<EightBranches>,
 }
 
 /// Where a ray goes on from.
@@ -67,19 +68,19 @@ impl Wave {
         self.direct.resize(count, u8::MAX);
         self.origins.clear();
         self.standings.clear();
-        if integrator.goes_on() {
+        if integrator.materials().go_on {
             self.stand(integrator, workshop.scratch);
         }
         workshop.counts.camera += self.rays.iter().map(|eight| u64::from(eight.lanes.count_ones())).sum::<u64>();
-        let mut generation = 0;
+        let (mut generation, mut bounce) = (0, 0);
         while generation < self.rays.len() {
             let next = self.rays.len();
             self.light_up(integrator, generation, workshop);
-            if integrator.goes_on() {
-                self.go_on(integrator, generation, workshop.counts);
+            if integrator.materials().go_on {
+                self.go_on(integrator, generation, bounce, workshop);
                 self.trace(integrator, next, workshop);
             }
-            generation = next;
+            (generation, bounce) = (next, bounce + 1);
         }
         self.gather();
         &self.seen[..count]
@@ -113,38 +114,35 @@ impl Wave {
         }
     }
 
-    /// The rays that go on from where those from `first` on end: first what is reflected, then what is refracted.
-    fn go_on(&mut self, integrator: &Whitted, first: usize, counts: &mut RayCounts) {
+    /// The rays that go on from where those from `first` on end, which were reflected and refracted `bounce` times.
+    fn go_on(&mut self, integrator: &Whitted, first: usize, bounce: u32, workshop: &mut Workshop) {
+        let Self { rays, hits, met, standings, branches, .. } = self;
+        branches.clear();
+        if bounce < integrator.max_bounces() {
+            let (rays, hits, standings) = (&rays[first..], &hits[first..], &standings[first * LANES..]);
+            workshop.backend.run(GoOn { integrator, rays, hits, met, standings, branches });
+        }
         let end = self.rays.len();
+        let branches = std::mem::take(&mut self.branches);
         let mut next = Next { wave: self, count: end * LANES };
-        let mut refracted = std::mem::take(&mut next.wave.refracted);
-        for number in first * LANES..end * LANES {
-            let (eight, lane) = (number / LANES, number % LANES);
-            let met = &next.wave.met[eight - first];
-            if met.met >> lane & 1 == 0 || !goes_on(met.material(lane, integrator)) {
-                continue;
-            }
-            let Some(hit) = next.wave.hits[eight].hit(lane) else { continue };
-            let ray = next.wave.rays[eight].ray(lane);
-            let surface = met.lane(lane, &ray, hit.1.t, integrator);
-            let standing = next.wave.standings[number];
-            let (behind, mirrored) = integrator.branches(&ray, hit, &surface, &standing);
-            // They are gathered from the last to the first: what is refracted is added first.
-            if let Some(branch) = mirrored {
-                counts.reflected += 1;
-                let origin = Origin { ray: 0, parent: number, factor: branch.factor, through: None };
-                next.set_out(origin, &branch);
-            }
-            if let Some(branch) = behind {
-                counts.refracted += 1;
-                let through = Some(surface.material.kt);
-                refracted.push((Origin { ray: 0, parent: number, factor: branch.factor, through }, branch));
+        // They are gathered from the last to the first: what is refracted is added first.
+        for eight in &branches {
+            let parent = (first + eight.from) * LANES;
+            for lane in (0..LANES).filter(|lane| eight.reflected.lanes >> lane & 1 != 0) {
+                let media = next.wave.standings[parent + lane].media;
+                next.set_out(parent + lane, &eight.reflected(lane, media), None);
+                workshop.counts.reflected += 1;
             }
         }
-        for (origin, branch) in refracted.drain(..) {
-            next.set_out(origin, &branch);
+        for eight in &branches {
+            let parent = (first + eight.from) * LANES;
+            for lane in (0..LANES).filter(|lane| eight.refracted.lanes >> lane & 1 != 0) {
+                let material = integrator.materials().numbered(next.wave.met[eight.from].materials.numbers[lane]);
+                next.set_out(parent + lane, &eight.refracted(lane), Some(material.kt));
+                workshop.counts.refracted += 1;
+            }
         }
-        self.refracted = refracted;
+        self.branches = branches;
         if let Some(last) = self.rays[end..].last_mut() {
             last.fill_up();
         }
@@ -184,19 +182,19 @@ struct Next<'a> {
 }
 
 impl Next<'_> {
-    /// A ray sets out from there.
-    fn set_out(&mut self, origin: Origin, branch: &Branch) {
+    /// A ray sets out from the end of another; if it is refracted, so that a share of its light goes `through`.
+    fn set_out(&mut self, parent: usize, branch: &Branch, through: Option<f64>) {
         let Wave { rays, direct, standings, origins, .. } = &mut *self.wave;
         let (eight, lane) = (self.count / LANES, self.count % LANES);
         if lane == 0 {
             rays.push(EightRays::NONE);
             direct.push(0);
         }
-        let standing = standings[origin.parent].of(branch, origin.through.is_some());
+        let standing = standings[parent].of(branch, through.is_some());
         rays[eight].put(lane, &branch.ray, f64::INFINITY);
         direct[eight] |= u8::from(standing.direct) << lane;
         standings.push(standing);
-        origins.push(Origin { ray: self.count, ..origin });
+        origins.push(Origin { ray: self.count, parent, factor: branch.factor, through });
         self.count += 1;
     }
 }

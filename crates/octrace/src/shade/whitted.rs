@@ -9,9 +9,10 @@
 //! internal reflection), its share goes to the reflection.
 
 use super::light::{Lighting, Seen};
+use super::materials::{Materials, ambient_of};
 use super::optics::{Branch, Media, Standing, mirror, refract};
 use crate::geom::{Hit, Ray, Vec3};
-use crate::model::{Light, Material, PartId, Rgb, Scene};
+use crate::model::{Light, Material, Rgb, Scene};
 use crate::num::power_of_fraction;
 use crate::trace::{RayTo, Scratch, SurfacePoint, Tracer};
 
@@ -20,12 +21,7 @@ use crate::trace::{RayTo, Scratch, SurfacePoint, Tracer};
 pub(crate) struct Whitted<'a> {
     tracer: &'a Tracer,
     lighting: Lighting,
-    /// Those of the scene's parts, and in the end that of parts without one.
-    materials: Vec<Material>,
-    /// What each of them sends to the viewer by ambient light: red, green, blue.
-    ambients: Vec<[f64; 3]>,
-    /// Of each, body colour, `Kd`, `Ks` and exponent.
-    coats: Vec<[f64; 6]>,
+    materials: Materials,
     /// Index of refraction inside each body of the tracer.
     body_ior: Vec<f64>,
     max_bounces: u32,
@@ -34,14 +30,14 @@ pub(crate) struct Whitted<'a> {
 }
 
 /// Rays that contribute less than this are not traced: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
-const LEAST_WEIGHT: f64 = 1.0 / 8192.0;
+pub(super) const LEAST_WEIGHT: f64 = 1.0 / 8192.0;
 
 /// New rays start this far off their surface, relative to coordinates and distances: some 2^20 roundings, far more than a
 /// hit may be off, far less than one sees.
 pub(super) const OFFSET: f64 = 1.0 / (1_u64 << 32) as f64;
 
 /// A shadow ray may pass this many transparent surfaces.
-const MAX_SHADOW_CROSSINGS: u32 = 64;
+pub(super) const MAX_SHADOW_CROSSINGS: u32 = 64;
 
 /// Highlights that are fainter than `exp` of minus this, less than a millionth, are left out: nobody sees them.
 pub(super) const FAINT: f64 = 14.0;
@@ -92,17 +88,8 @@ impl<'a> Whitted<'a> {
     /// as [`Scene::bodies`] says.
     pub fn new(scene: &'a Scene, tracer: &'a Tracer, lighting: Lighting, body_ior: Vec<f64>, max_bounces: u32) -> Self {
         let size = tracer.bounds().size().max_abs();
-        let mut materials: Vec<Material> = scene.parts.iter().map(|part| part.material).collect();
-        materials.push(scene.material(None));
-        let ambients = materials.iter().map(|material| {
-            let Rgb { r, g, b } = ambient(material, lighting.ambient);
-            [r, g, b]
-        });
-        let coats = materials
-            .iter()
-            .map(|&Material { color: Rgb { r, g, b }, kd, ks, shininess, .. }| [r, g, b, kd, ks, shininess]);
-        let (ambients, coats) = (ambients.collect(), coats.collect());
-        Self { tracer, lighting, materials, ambients, coats, body_ior, max_bounces, size }
+        let materials = Materials::new(scene, lighting.ambient);
+        Self { tracer, lighting, materials, body_ior, max_bounces, size }
     }
 
     pub(super) fn tracer(&self) -> &'a Tracer {
@@ -113,45 +100,16 @@ impl<'a> Whitted<'a> {
         &self.lighting.lights
     }
 
-    pub(super) fn materials(&self) -> &[Material] {
+    pub(super) fn materials(&self) -> &Materials {
         &self.materials
     }
 
-    pub(super) fn ambients(&self) -> &[[f64; 3]] {
-        &self.ambients
-    }
-
-    pub(super) fn coats(&self) -> &[[f64; 6]] {
-        &self.coats
-    }
-
-    /// Whether light may go on from some surface.
-    pub(super) fn goes_on(&self) -> bool {
-        self.materials.iter().any(goes_on)
-    }
-
-    /// Whether light may pass through something.
-    pub(super) fn filters(&self) -> bool {
-        self.materials.iter().any(Material::is_transparent)
+    pub(super) fn max_bounces(&self) -> u32 {
+        self.max_bounces
     }
 
     pub(super) fn size(&self) -> f64 {
         self.size
-    }
-
-    /// Which of the materials a leaf of the tracer has.
-    pub(super) fn material_number(&self, leaf: u32) -> u32 {
-        self.number_of(self.tracer.catalog().leaves[leaf as usize].part)
-    }
-
-    /// The material of a leaf of the tracer.
-    pub(super) fn material_of(&self, leaf: u32) -> &Material {
-        &self.materials[self.material_number(leaf) as usize]
-    }
-
-    fn number_of(&self, part: Option<PartId>) -> u32 {
-        let none = self.materials.len() as u32 - 1;
-        part.map_or(none, |PartId(index)| index.min(none))
     }
 
     /// How a camera ray sets out.
@@ -165,11 +123,6 @@ impl<'a> Whitted<'a> {
             }
         }
         Standing { media, bounce: 0, weight: 1.0, direct: true }
-    }
-
-    /// As [`Scene::material`].
-    fn material(&self, part: Option<PartId>) -> &Material {
-        &self.materials[self.number_of(part) as usize]
     }
 
     fn ior(&self, media: &Media) -> f64 {
@@ -187,7 +140,7 @@ impl<'a> Whitted<'a> {
     /// What a ray meets at that point.
     pub(super) fn met(&self, ray: &Ray, hit: &Hit, point: &SurfacePoint) -> Met<'_> {
         let position = point.position;
-        let material = self.material(point.part);
+        let material = self.materials.of(point.part);
         let toward_viewer = -ray.direction.normalized().unwrap_or(Vec3::Z);
         let normal = if point.normal.dot(toward_viewer) < 0.0 { -point.normal } else { point.normal };
         let offset = self.offset(ray, hit, point);
@@ -196,7 +149,7 @@ impl<'a> Whitted<'a> {
 
     /// The ambient light of a surface.
     pub(super) fn ambient(&self, met: &Met) -> Rgb {
-        ambient(met.material, self.lighting.ambient)
+        ambient_of(met.material, self.lighting.ambient)
     }
 
     /// What a light brings to a surface if nothing is in its way: diffuse and specular.
@@ -230,14 +183,8 @@ impl<'a> Whitted<'a> {
         let Standing { media, bounce, weight, .. } = *standing;
         let (mut kr, mut refracted) = (material.kr, None);
         if material.is_transparent() {
-            let beyond = if hit.entering { media.enter(body) } else { media.leave(body) };
-            // A transparent leaf of an opaque body refracts by its own index.
-            let (n1, n2) = match (self.ior(&media), self.ior(&beyond)) {
-                (1.0, 1.0) if hit.entering => (1.0, material.ior),
-                (1.0, 1.0) => (material.ior, 1.0),
-                pair => pair,
-            };
-            match refract(ray.direction, *normal, n1 / n2) {
+            let (beyond, ratio) = self.beyond(&media, (body, hit.entering), material);
+            match refract(ray.direction, *normal, ratio) {
                 Some(direction) => {
                     let ray = Ray { origin: *position + *normal * -offset, direction };
                     let factor = material.transmission();
@@ -254,12 +201,24 @@ impl<'a> Whitted<'a> {
         (refracted.filter(counts), reflected.filter(counts))
     }
 
+    /// What a ray is in behind the surface of a body, of a transparent material; and the index before it over the one behind.
+    pub(super) fn beyond(&self, media: &Media, (body, entering): (usize, bool), material: &Material) -> (Media, f64) {
+        let beyond = if entering { media.enter(body) } else { media.leave(body) };
+        // A transparent leaf of an opaque body refracts by its own index.
+        let (n1, n2) = match (self.ior(media), self.ior(&beyond)) {
+            (1.0, 1.0) if entering => (1.0, material.ior),
+            (1.0, 1.0) => (material.ior, 1.0),
+            pair => pair,
+        };
+        (beyond, n1 / n2)
+    }
+
     /// Follows a light's way past what the rest of it meets first; says what that is.
     pub(super) fn pass(&self, way: &mut LightsWay, first: Option<(usize, Hit)>) -> Option<(Hit, SurfacePoint)> {
         let RayTo { mut ray, end: mut reach } = way.rest.take()?;
         let (_, hit) = first?;
         let point = self.tracer.surface_point(&ray, &hit);
-        way.share = way.share * self.material(point.part).transmission();
+        way.share = way.share * self.materials.of(point.part).transmission();
         way.crossings += 1;
         if way.share.max_component() < LEAST_WEIGHT || way.crossings == MAX_SHADOW_CROSSINGS {
             way.share = Rgb::BLACK;
@@ -282,15 +241,6 @@ impl<'a> Whitted<'a> {
         let travelled = hit.t * ray.direction.max_abs();
         OFFSET * self.size.max(point.position.max_abs()).max(travelled)
     }
-}
-
-/// Whether light comes along other rays too, from a mirror image or from behind.
-pub(super) fn goes_on(material: &Material) -> bool {
-    material.kr > 0.0 || material.is_transparent()
-}
-
-fn ambient(material: &Material, light: Rgb) -> Rgb {
-    material.color * light * material.ka
 }
 
 /// The highlight, to the power of the material's shininess.

@@ -34,7 +34,7 @@ pub(crate) struct EightHits {
 }
 
 /// A point or a direction of one lane.
-pub(crate) fn lane_of_three(v: &[Stored; 3], lane: usize) -> Vec3 {
+fn lane_of_three(v: &[Stored; 3], lane: usize) -> Vec3 {
     Vec3::new(v[0].0[lane], v[1].0[lane], v[2].0[lane])
 }
 

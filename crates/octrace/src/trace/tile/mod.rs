@@ -22,7 +22,7 @@ mod walk;
 
 pub use dispatch::Backend;
 pub(crate) use dispatch::Task;
-pub(crate) use eight::{EightHits, EightRays, lane_of_three};
+pub(crate) use eight::{EightHits, EightRays};
 pub use lambert::{Brightness, Told};
 pub(crate) use points::points;
 pub use stream::RayTo;
