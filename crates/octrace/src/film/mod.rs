@@ -1,6 +1,7 @@
 //! Where samples are collected, and the loop that collects them.
 
 mod buffer;
+mod develop;
 mod render;
 
 pub use buffer::Film;

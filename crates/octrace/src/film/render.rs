@@ -1,11 +1,13 @@
 //! The render loop: tiles are the unit of threads, progress and interruption; the film does not depend on their order.
 
 use super::Film;
+use super::develop::Develop;
 use crate::exec::{Cancelled, Exec};
-use crate::geom::Ray;
 use crate::model::{Camera, CameraRays, DEFAULT_AMBIENT, DEFAULT_BACKGROUND, Rgb, Scene, default_lights};
-use crate::shade::{Lighting, RayCounts, RayTree, Recorder, Seen, Wave, Whitted, Workshop};
-use crate::trace::{Backend, Counters, RayTile, Scratch, TileHit, Tiles, Tracer};
+use crate::shade::{EightSeen, Lighting, RayCounts, RayTree, Recorder, Wave, Whitted, Workshop};
+use crate::trace::{
+    Backend, Counters, EightHits, EightRays, PACKETS as EIGHTS, RayTile, Scratch, Tiles, Tracer, lane_of,
+};
 use rayon::prelude::*;
 use std::ops::AddAssign;
 
@@ -136,8 +138,8 @@ struct TileCamera<'a> {
 struct Worker {
     scratch: Scratch,
     rays: RayTile,
-    hits: Vec<(Ray, TileHit)>,
     wave: Wave,
+    sums: Vec<EightSeen>,
 }
 
 struct Tile {
@@ -151,42 +153,58 @@ impl Tile {
         integrator: &Whitted,
         camera: &TileCamera,
         view: &View,
-        (left, top): (u32, u32),
-        Worker { scratch, rays, hits, wave }: &mut Worker,
+        corner: (u32, u32),
+        Worker { scratch, rays, wave, sums }: &mut Worker,
     ) -> Self {
-        let (width, height) = ((view.width_px - left).min(TILE_PX), (view.height_px - top).min(TILE_PX));
+        let size = ((view.width_px - corner.0).min(TILE_PX), (view.height_px - corner.1).min(TILE_PX));
         let samples = view.samples.max(1);
         let mut stats = RenderStats::default();
-        let mut sums = vec![Seen { color: Rgb::BLACK, alpha: 0.0 }; (width * height) as usize];
         scratch.counters = Counters::default();
+        sums.clear();
         for sample in 0..samples {
-            let place = sample_place(sample, samples);
-            if let Some(tiles) = &camera.together {
-                tiles.trace((left, top), (width, height), place, rays, scratch);
-            }
-            hits.clear();
-            for (x, y) in (0..width * height).map(|index| (index % width, index / width)) {
-                let at = (x as usize, y as usize);
-                let (ray, hit) = match &camera.together {
-                    Some(tiles) => (tiles.ray(rays, at), tiles.hit(rays, at)),
-                    None => {
-                        let ray = camera.rays.ray(f64::from(left + x) + place.0, f64::from(top + y) + place.1);
-                        (ray, camera.tracer.first_body_hit(&ray, f64::INFINITY, scratch))
-                    }
-                };
-                hits.push((ray, hit));
-            }
+            camera.trace(corner, size, sample_place(sample, samples), (rays, scratch), wave.camera_rays(EIGHTS));
             let mut workshop = Workshop { backend: camera.backend, tile: rays, scratch, counts: &mut stats.rays };
-            for (sum, seen) in sums.iter_mut().zip(wave.camera_rays(integrator, hits.iter().copied(), &mut workshop)) {
-                sum.color += seen.color;
-                sum.alpha += seen.alpha;
+            let seen = wave.light(integrator, &mut workshop);
+            if sample == 0 {
+                sums.extend_from_slice(seen);
+                continue;
+            }
+            for (sum, seen) in sums.iter_mut().zip(seen) {
+                sum.add(seen);
             }
         }
         let share = 1.0 / f64::from(samples);
-        let pixel = |Seen { color, alpha }| [color.r * share, color.g * share, color.b * share, alpha * share];
-        let pixels = sums.into_iter().map(|sum| pixel(sum).map(|v| v as f32)).collect();
+        let mut pixels = vec![[0.0; 4]; (size.0 * size.1) as usize];
+        camera.backend.run(Develop { seen: sums, share, width: size.0 as usize, pixels: &mut pixels });
         stats.counters = scratch.counters;
-        Self { width, pixels, stats }
+        Self { width: size.0, pixels, stats }
+    }
+}
+
+impl TileCamera<'_> {
+    /// What the rays through a place of each pixel of a tile meet.
+    fn trace(
+        &self,
+        corner: (u32, u32),
+        size: (u32, u32),
+        place: (f64, f64),
+        (tile, scratch): (&mut RayTile, &mut Scratch),
+        (rays, hits): (&mut [EightRays], &mut [EightHits]),
+    ) {
+        if let Some(tiles) = &self.together {
+            tiles.trace(corner, size, place, tile, scratch);
+            tiles.eights(tile, rays, hits);
+            return;
+        }
+        for (rays, hits) in rays.iter_mut().zip(&mut *hits) {
+            (rays.lanes, hits.met) = (0, 0);
+        }
+        for (x, y) in (0..size.1).flat_map(|y| (0..size.0).map(move |x| (x, y))) {
+            let ray = self.rays.ray(f64::from(corner.0 + x) + place.0, f64::from(corner.1 + y) + place.1);
+            let (eight, lane) = lane_of(x as usize, y as usize);
+            rays[eight].put(lane, &ray, f64::INFINITY);
+            hits[eight].set(lane, self.tracer.first_body_hit(&ray, f64::INFINITY, scratch));
+        }
     }
 }
 

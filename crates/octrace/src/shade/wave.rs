@@ -1,38 +1,43 @@
-//! The trees of rays of a whole tile, one generation after another: so rays of a kind are traced together.
+//! The trees of rays of a whole tile, one generation after another, eight rays at once.
 //!
 //! What comes out is what [`Whitted::camera_ray`] makes of each ray by itself, to the bit: the same terms are added in the
 //! same order.
 
-use super::whitted::{Branch, LightsWay, Lit, Met, RayCounts, Seen, Standing, Whitted};
-use crate::geom::{Ray, Vec3};
+use super::branch::{EightBranches, GoOn};
+use super::light::{EightSeen, RayCounts};
+use super::meet::{EightMet, Meet};
+use super::optics::{Branch, Standing};
+use super::shadows::Shadows;
+use super::whitted::Whitted;
+use crate::geom::Vec3;
 use crate::model::Rgb;
-use crate::trace::{Backend, RayTile, RayTo, Scratch, TileHit};
+use crate::trace::lanes::LANES;
+use crate::trace::{Backend, EightHits, EightRays, RayTile, Scratch};
 
-/// The memory of a worker for trees of rays.
+/// The memory of a worker for trees of rays. A ray's number is that of its eight, times the lanes, plus its lane.
 #[derive(Debug, Default)]
 pub(crate) struct Wave {
-    nodes: Vec<Node>,
-    /// What comes along each ray.
-    seen: Vec<Seen>,
-    /// Where the rays come from that are not the camera's: of the last nodes.
+    /// The rays, one generation behind the other, and what they meet.
+    rays: Vec<EightRays>,
+    hits: Vec<EightHits>,
+    /// What comes along them.
+    seen: Vec<EightSeen>,
+    /// Those that come from the camera, if through glass.
+    direct: Vec<u8>,
+    /// Where each ray stands in its tree; unknown where no surface lets light go on.
+    standings: Vec<Standing>,
+    /// Where the rays come from that are not the camera's.
     origins: Vec<Origin>,
-    rays: Vec<RayTo>,
-    hits: Vec<TileHit>,
-    lit: Vec<(usize, Lit)>,
-    ways: Vec<LightsWay>,
-}
-
-/// A ray of a tree.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    ray: Ray,
-    hit: TileHit,
-    standing: Standing,
+    /// What the present generation meets.
+    met: Vec<EightMet>,
+    shadows: Shadows,
+    branches: Vec<EightBranches>,
 }
 
 /// Where a ray goes on from.
 #[derive(Clone, Copy, Debug)]
 struct Origin {
+    ray: usize,
     parent: usize,
     factor: Rgb,
     /// If it is refracted, what share of the light goes through.
@@ -48,132 +53,148 @@ pub(crate) struct Workshop<'a> {
 }
 
 impl Wave {
-    /// Light along camera rays that meet what is said, in their order.
-    pub fn camera_rays(
-        &mut self,
-        integrator: &Whitted,
-        rays: impl Iterator<Item = (Ray, TileHit)>,
-        workshop: &mut Workshop,
-    ) -> &[Seen] {
-        self.nodes.clear();
+    /// Where to put so many eights of camera rays and what they meet.
+    pub fn camera_rays(&mut self, eights: usize) -> (&mut [EightRays], &mut [EightHits]) {
+        self.rays.resize(eights, EightRays::NONE);
+        self.hits.resize(eights, EightHits::default());
+        (&mut self.rays, &mut self.hits)
+    }
+
+    /// Light along the camera rays that were put here, in their order.
+    pub fn light(&mut self, integrator: &Whitted, workshop: &mut Workshop) -> &[EightSeen] {
+        let count = self.rays.len();
         self.seen.clear();
+        self.direct.clear();
+        self.direct.resize(count, u8::MAX);
         self.origins.clear();
-        let mut last: Option<(Vec3, Standing)> = None;
-        for (ray, hit) in rays {
-            // Most cameras are in one place.
-            let standing = match last {
-                Some((origin, standing)) if origin == ray.origin => standing,
-                _ => integrator.camera_standing(&ray, workshop.scratch),
-            };
-            last = Some((ray.origin, standing));
-            self.nodes.push(Node { ray, hit, standing });
+        self.standings.clear();
+        if integrator.materials().go_on {
+            self.stand(integrator, workshop.scratch);
         }
-        let count = self.nodes.len();
-        workshop.counts.camera += count as u64;
-        let mut met = Vec::with_capacity(count);
-        let mut generation = 0;
-        while generation < self.nodes.len() {
-            let next = self.nodes.len();
-            self.light(integrator, generation, &mut met, workshop);
-            self.go_on(integrator, &met, workshop);
-            self.trace(integrator, next, workshop);
-            generation = next;
+        workshop.counts.camera += self.rays.iter().map(|eight| u64::from(eight.lanes.count_ones())).sum::<u64>();
+        let (mut generation, mut bounce) = (0, 0);
+        while generation < self.rays.len() {
+            let next = self.rays.len();
+            self.light_up(integrator, generation, workshop);
+            if integrator.materials().go_on {
+                self.go_on(integrator, generation, bounce, workshop);
+                self.trace(integrator, next, workshop);
+            }
+            (generation, bounce) = (next, bounce + 1);
         }
         self.gather();
         &self.seen[..count]
     }
 
-    /// What surfaces there are where the rays from `first` on end, and the light on them.
-    fn light<'a>(
-        &mut self,
-        integrator: &'a Whitted,
-        first: usize,
-        met: &mut Vec<(usize, Met<'a>)>,
-        Workshop { backend, tile, scratch, counts }: &mut Workshop,
-    ) {
-        let Self { nodes, seen, rays, hits, lit, ways, .. } = self;
-        met.clear();
-        for (number, node) in nodes.iter().enumerate().skip(first) {
-            seen.push(match node.hit {
-                Some((_, hit)) => {
-                    let surface = integrator.met(&node.ray, &hit);
-                    met.push((number, surface));
-                    Seen { color: integrator.ambient(&surface), alpha: 1.0 }
-                }
-                None => integrator.nothing(node.standing.direct),
-            });
-        }
-        for light in integrator.lights() {
-            lit.clear();
-            lit.extend(met.iter().filter_map(|(number, met)| Some((*number, integrator.lit(met, light)?))));
-            counts.shadow += lit.len() as u64;
-            ways.clear();
-            ways.extend(lit.iter().map(|(_, Lit { shadow, reach, .. })| LightsWay::new(shadow, *reach)));
-            loop {
-                rays.clear();
-                rays.extend(ways.iter().filter_map(|way| way.rest));
-                if rays.is_empty() {
-                    break;
-                }
-                hits.clear();
-                hits.resize(rays.len(), None);
-                integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
-                for (way, hit) in ways.iter_mut().filter(|way| way.rest.is_some()).zip(&*hits) {
-                    integrator.pass(way, *hit);
-                }
-            }
-            for ((number, Lit { intensity, factor, .. }), way) in lit.iter().zip(&*ways) {
-                seen[*number].color += *intensity * way.share * *factor;
-            }
+    /// Finds out how the camera rays stand.
+    fn stand(&mut self, integrator: &Whitted, scratch: &mut Scratch) {
+        let mut last: Option<(Vec3, Standing)> = None;
+        for number in 0..self.rays.len() * LANES {
+            let (eight, lane) = (&self.rays[number / LANES], number % LANES);
+            let ray = eight.ray(lane);
+            // Most cameras are in one place.
+            let standing = match last {
+                Some((origin, standing)) if origin == ray.origin || eight.lanes >> lane & 1 == 0 => standing,
+                _ => integrator.camera_standing(&ray, scratch),
+            };
+            last = Some((ray.origin, standing));
+            self.standings.push(standing);
         }
     }
 
-    /// The rays that go on from there.
-    fn go_on(&mut self, integrator: &Whitted, met: &[(usize, Met)], Workshop { counts, .. }: &mut Workshop) {
-        let Self { nodes, origins, .. } = self;
-        for (parent, surface) in met.iter().filter(|(_, surface)| surface.goes_on()) {
-            let Node { ray, hit: Some(hit), standing } = nodes[*parent] else { continue };
-            let (refracted, reflected) = integrator.branches(&ray, hit, surface, &standing);
-            let mut set_out = |branch: Branch, through: Option<f64>| {
-                let standing = standing.of(&branch, through.is_some());
-                origins.push(Origin { parent: *parent, factor: branch.factor, through });
-                nodes.push(Node { ray: branch.ray, hit: None, standing });
-            };
-            // They are gathered from the last to the first: what is refracted is added first.
-            if let Some(branch) = reflected {
-                counts.reflected += 1;
-                set_out(branch, None);
+    /// What surfaces there are where the rays from `first` on end, and the light on them.
+    fn light_up(&mut self, integrator: &Whitted, first: usize, workshop: &mut Workshop) {
+        let Self { rays, hits, seen, direct, met, shadows, .. } = self;
+        met.resize(rays.len() - first, EightMet::default());
+        seen.resize(rays.len(), EightSeen::default());
+        let (rays, hits, direct, seen) = (&rays[first..], &hits[first..], &direct[first..], &mut seen[first..]);
+        workshop.backend.run(Meet { integrator, rays, hits, direct, met, seen });
+        for light in integrator.lights() {
+            shadows.add_light(integrator, light, met, seen, workshop);
+        }
+    }
+
+    /// The rays that go on from where those from `first` on end, which were reflected and refracted `bounce` times.
+    fn go_on(&mut self, integrator: &Whitted, first: usize, bounce: u32, workshop: &mut Workshop) {
+        let Self { rays, hits, met, standings, branches, .. } = self;
+        branches.clear();
+        if bounce < integrator.max_bounces() {
+            let (rays, hits, standings) = (&rays[first..], &hits[first..], &standings[first * LANES..]);
+            workshop.backend.run(GoOn { integrator, rays, hits, met, standings, branches });
+        }
+        let end = self.rays.len();
+        let branches = std::mem::take(&mut self.branches);
+        let mut next = Next { wave: self, count: end * LANES };
+        // They are gathered from the last to the first: what is refracted is added first.
+        for eight in &branches {
+            let parent = (first + eight.from) * LANES;
+            for lane in (0..LANES).filter(|lane| eight.reflected.lanes >> lane & 1 != 0) {
+                let media = next.wave.standings[parent + lane].media;
+                next.set_out(parent + lane, &eight.reflected(lane, media), None);
+                workshop.counts.reflected += 1;
             }
-            if let Some(branch) = refracted {
-                counts.refracted += 1;
-                set_out(branch, Some(surface.material.kt));
+        }
+        for eight in &branches {
+            let parent = (first + eight.from) * LANES;
+            for lane in (0..LANES).filter(|lane| eight.refracted.lanes >> lane & 1 != 0) {
+                let material = integrator.materials().numbered(next.wave.met[eight.from].materials.numbers[lane]);
+                next.set_out(parent + lane, &eight.refracted(lane), Some(material.kt));
+                workshop.counts.refracted += 1;
             }
+        }
+        self.branches = branches;
+        if let Some(last) = self.rays[end..].last_mut() {
+            last.fill_up();
+        }
+        let padded = self.rays.len() * LANES;
+        if let Some(&last) = self.standings.last() {
+            self.standings.resize(padded, last);
         }
     }
 
     /// Traces the rays from `first` on.
-    fn trace(&mut self, integrator: &Whitted, first: usize, Workshop { backend, tile, scratch, .. }: &mut Workshop) {
-        let Self { nodes, rays, hits, .. } = self;
-        let new = &mut nodes[first..];
-        rays.clear();
-        rays.extend(new.iter().map(|node| RayTo { ray: node.ray, end: f64::INFINITY }));
-        hits.clear();
-        hits.resize(rays.len(), None);
-        integrator.tracer().first_hits_into(rays, *backend, tile, scratch, hits);
-        for (node, hit) in new.iter_mut().zip(&*hits) {
-            node.hit = *hit;
-        }
+    fn trace(&mut self, integrator: &Whitted, first: usize, workshop: &mut Workshop) {
+        let Workshop { backend, tile, scratch, .. } = workshop;
+        self.hits.resize(self.rays.len(), EightHits::default());
+        integrator.tracer().eight_hits(&self.rays[first..], *backend, tile, scratch, &mut self.hits[first..]);
     }
 
     /// Brings the light back to where the rays came from.
     fn gather(&mut self) {
-        let cameras = self.nodes.len() - self.origins.len();
-        for (place, Origin { parent, factor, through }) in self.origins.iter().enumerate().rev() {
-            let seen = self.seen[cameras + place];
+        for Origin { ray, parent, factor, through } in self.origins.iter().rev() {
+            let seen = self.seen[ray / LANES].lane(ray % LANES);
+            let at = &mut self.seen[parent / LANES];
+            let mut sum = at.lane(parent % LANES);
             match through {
-                Some(share) => self.seen[*parent].refract(seen, *factor, *share),
-                None => self.seen[*parent].reflect(seen, *factor),
+                Some(share) => sum.refract(seen, *factor, *share),
+                None => sum.reflect(seen, *factor),
             }
+            at.put(parent % LANES, sum);
         }
+    }
+}
+
+/// The next generation as it grows.
+struct Next<'a> {
+    wave: &'a mut Wave,
+    /// How many rays there are, with those of all generations before.
+    count: usize,
+}
+
+impl Next<'_> {
+    /// A ray sets out from the end of another; if it is refracted, so that a share of its light goes `through`.
+    fn set_out(&mut self, parent: usize, branch: &Branch, through: Option<f64>) {
+        let Wave { rays, direct, standings, origins, .. } = &mut *self.wave;
+        let (eight, lane) = (self.count / LANES, self.count % LANES);
+        if lane == 0 {
+            rays.push(EightRays::NONE);
+            direct.push(0);
+        }
+        let standing = standings[parent].of(branch, through.is_some());
+        rays[eight].put(lane, &branch.ray, f64::INFINITY);
+        direct[eight] |= u8::from(standing.direct) << lane;
+        standings.push(standing);
+        origins.push(Origin { ray: self.count, parent, factor: branch.factor, through });
+        self.count += 1;
     }
 }

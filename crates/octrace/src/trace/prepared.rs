@@ -20,13 +20,18 @@ pub(super) struct Prepared {
 /// What is farther from the middle of the scene than so many times its size, is far.
 const FAR: f64 = 64.0;
 
-/// Which rays are traced just as they are given.
+/// Which rays are traced just as they are given: those with usual directions that start near the scene.
 pub(super) struct Usual {
-    center: Vec3,
-    far: f64,
+    /// The middle of the scene.
+    pub center: Vec3,
+    /// How far from it in each coordinate rays start at most.
+    pub far: f64,
 }
 
 impl Usual {
+    /// The largest coordinates of directions that need not be scaled.
+    pub const DIRECTIONS: Range<f64> = 1e-30..1e30;
+
     /// For a scene whose bounded parts lie in `bounds`.
     pub fn new(bounds: &Bounds) -> Self {
         match bounds.is_empty() {
@@ -34,23 +39,14 @@ impl Usual {
             false => Self { center: bounds.center(), far: FAR * bounds.size().max_abs() },
         }
     }
-
-    /// Whether that ray is.
-    #[inline]
-    pub fn holds(&self, ray: &Ray) -> bool {
-        USUAL_DIRECTIONS.contains(&ray.direction.max_abs()) && (self.center - ray.origin).max_abs() <= self.far
-    }
 }
-
-/// The largest coordinates of directions that need not be scaled.
-const USUAL_DIRECTIONS: Range<f64> = 1e-30..1e30;
 
 impl Prepared {
     /// Prepares a ray for a scene whose bounded parts lie in `bounds`.
     pub fn new(ray: &Ray, bounds: &Bounds) -> Self {
         let mut prepared = Self { ray: *ray, passes_by: false, shift: 0.0, scale: 1.0 };
         let largest = ray.direction.max_abs();
-        if !USUAL_DIRECTIONS.contains(&largest) {
+        if !Usual::DIRECTIONS.contains(&largest) {
             let exponent = exponent_of(largest);
             prepared.ray.direction = scaled(ray.direction, -exponent);
             prepared.scale = libm::ldexp(1.0, exponent);

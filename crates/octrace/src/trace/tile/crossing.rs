@@ -124,7 +124,13 @@ pub(super) fn plane<I: Isa, N: Number<I>>(plane: &Plane, rays: &Rays<I, N>) -> C
     let usual = t.is_finite();
     let mut crossed = Crossed { starts_inside: slope.gt(F64s::zero()), a: t, b: F64s::infinity() };
     if !usual.all() {
-        crossed.set(!usual.bits(), |lane| plane.crossings(&rays.lane(lane)));
+        let parallel = slope.le(F64s::zero()) & slope.ge(F64s::zero());
+        crossed.starts_inside = parallel & height.lanes().lt(F64s::zero()) | !parallel & crossed.starts_inside;
+        crossed.a = parallel.select(F64s::infinity(), t);
+        let usual = usual | parallel;
+        if !usual.all() {
+            crossed.set(!usual.bits(), |lane| plane.crossings(&rays.lane(lane)));
+        }
     }
     crossed
 }
@@ -143,8 +149,9 @@ pub(super) fn quadric<I: Isa, N: Number<I>>(quadric: &Quadric, rays: &Rays<I, N>
             let nearest = -o.dot(d) / d.dot(d);
             let o = Vector::new(o.x + d.x * nearest, o.y + d.y * nearest, o.z + d.z * nearest);
             let (mut crossed, usual) = solved::<I, F64s<I>, Cone>(o, d);
+            let met = crossed.a.is_finite();
             (crossed.a, crossed.b) = (crossed.a + nearest, crossed.b + nearest);
-            (crossed, usual & (crossed.a.is_finite() & crossed.b.is_finite()))
+            (crossed, usual & (!met | crossed.a.is_finite() & crossed.b.is_finite()))
         }
     };
     let (mut crossed, usual) = crossed;
@@ -193,15 +200,23 @@ fn solved<I: Isa, N: Number<I>, K: Kind>(o: Vector<N>, d: Vector<F64s<I>>) -> (C
     let first = ordered.select(t0, t1) + F64s::zero();
     let second = ordered.select(t1, t0) + F64s::zero();
     let met = discriminant.gt(F64s::zero());
+    // Lines that miss the surface, and those of them that are inside.
+    let (missed, inside) = match K::KIND {
+        QuadricKind::Cone => {
+            let curved = a.lt(F64s::zero()) | a.gt(F64s::zero());
+            let by_direction = (a.abs() * o.dot(o)).ge(c.abs() * d.dot(d));
+            let inside = by_direction & a.lt(F64s::zero()) | !by_direction & c.lt(F64s::zero());
+            (discriminant.le(F64s::zero()) & curved, inside)
+        }
+        // From outside; whatever else is not two crossings is for the code that knows.
+        QuadricKind::Sphere | QuadricKind::Cylinder => {
+            (discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero()), Mask::splat(false))
+        }
+    };
     let crossed = Crossed {
-        starts_inside: a.lt(F64s::zero()),
+        starts_inside: met & a.lt(F64s::zero()) | missed & inside,
         a: met.select(first, F64s::infinity()),
         b: met.select(second, F64s::infinity()),
-    };
-    // A sphere and a cylinder are missed from outside; whatever else is not two crossings is for the code that knows.
-    let missed = match K::KIND {
-        QuadricKind::Cone => Mask::splat(false),
-        _ => discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero()),
     };
     (crossed, missed | (met & first.is_finite() & second.is_finite()))
 }
@@ -213,5 +228,72 @@ fn plus_z<N: Add<Output = N> + Sub<Output = N>, K: Kind>(rest: N, product: N) ->
         QuadricKind::Sphere => rest + product,
         QuadricKind::Cylinder => rest,
         QuadricKind::Cone => rest - product,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::dispatch::{Backend, Task};
+    use super::super::lanes::Stored;
+    use super::*;
+
+    /// Says for eight rays which come from inside, and where they cross a surface.
+    struct Cross<'a>(&'a Surface, &'a [[Stored; 3]; 2], &'a mut (u8, [Stored; 2]));
+
+    impl Task for Cross<'_> {
+        #[inline(always)]
+        fn run<I: Isa>(self) {
+            let Self(surface, [origin, direction], result) = self;
+            let rays = Rays::<I, F64s<I>> { origin: Vector::load(origin), direction: Vector::load(direction) };
+            let Crossed { starts_inside, a, b } = crossed_by(surface, &rays);
+            *result = (starts_inside.bits(), [a.stored(), b.stored()]);
+        }
+    }
+
+    /// Small integers and their neighbours: rays along axes and generators, through apexes, in faces.
+    fn some_rays() -> Vec<Ray> {
+        let mut state = 1_u64;
+        let mut next = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let whole = ((state >> 33) % 5) as f64 - 2.0;
+            if state >> 60 & 3 == 0 { whole + (state >> 40 & 0xFFFF) as f64 * 1e-5 } else { whole }
+        };
+        let mut three = move || Vec3::new(next(), next(), next());
+        let rays = std::iter::from_fn(|| Some((three(), three())));
+        rays.filter_map(|(origin, direction)| Ray::checked(origin, direction)).take(80_000).collect()
+    }
+
+    #[test]
+    fn eight_rays_cross_where_one_does() {
+        let turned = Affine::rotation_deg(Vec3::new(10.0, 20.0, 30.0));
+        let quadric = |kind, to_local| Surface::Quadric(Quadric { kind, to_local });
+        let mut surfaces = vec![
+            Surface::Plane(Plane { normal: Vec3::Z, offset: 1.0 }),
+            Surface::Plane(Plane { normal: Vec3::new(0.6, 0.0, -0.8), offset: 0.0 }),
+        ];
+        for kind in [QuadricKind::Sphere, QuadricKind::Cylinder, QuadricKind::Cone] {
+            surfaces.extend([quadric(kind, Affine::IDENTITY), quadric(kind, turned)]);
+        }
+        let rays = some_rays();
+        for (surface, rays) in
+            surfaces.iter().flat_map(|surface| rays.chunks_exact(LANES).map(move |rays| (surface, rays)))
+        {
+            let stored =
+                |of: fn(&Ray) -> Vec3| [0, 1, 2].map(|axis| Stored(std::array::from_fn(|lane| of(&rays[lane])[axis])));
+            let eight = [stored(|ray| ray.origin), stored(|ray| ray.direction)];
+            for backend in Backend::ALL {
+                let mut found = Default::default();
+                backend.run(Cross(surface, &eight, &mut found));
+                let (starts_inside, [a, b]) = found;
+                for (lane, ray) in rays.iter().enumerate() {
+                    let mut params = Vec::new();
+                    let expected = surface.crossings(&[], ray, &mut params);
+                    params.resize(2, f64::INFINITY);
+                    let crossings = (starts_inside >> lane & 1 != 0, a.0[lane].to_bits(), b.0[lane].to_bits());
+                    let expected = (expected, params[0].to_bits(), params[1].to_bits());
+                    assert_eq!(crossings, expected, "{surface:?}, {ray:?}, {backend:?}");
+                }
+            }
+        }
     }
 }

@@ -48,7 +48,7 @@ fn has_avx512() -> bool {
 
 /// A task that is compiled for several machines. Its `run` must be `#[inline(always)]`, to be compiled as part of a function
 /// that may use the wide registers.
-pub(super) trait Task {
+pub(crate) trait Task {
     /// Does it, with those instructions.
     fn run<I: Isa>(self);
 }
@@ -65,7 +65,7 @@ impl<I: Isa, T: Task> Kernel for With<I, T> {
 
 impl Backend {
     /// Does a task, as compiled for this backend; as for any machine where this one lacks it.
-    pub(super) fn run(self, task: impl Task) {
+    pub(crate) fn run(self, task: impl Task) {
         fn with<I: Isa>(task: impl Task) {
             I::call(With(task, PhantomData::<I>));
         }

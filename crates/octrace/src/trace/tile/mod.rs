@@ -8,50 +8,56 @@ mod beam;
 mod bundles;
 mod crossing;
 mod dispatch;
+mod eight;
 mod kernels;
 mod lambert;
-mod lanes;
+pub(crate) mod lanes;
 mod leaf;
 mod outer;
 mod packet;
+mod points;
 mod program;
 mod prune;
 mod stream;
 mod walk;
 
 pub use dispatch::Backend;
+pub(crate) use dispatch::Task;
+pub(crate) use eight::{EightHits, EightRays};
 pub use lambert::{Brightness, Told};
+pub(crate) use points::points;
 pub use stream::RayTo;
 
 use super::prepared::Prepared;
 use super::roots::hit_of;
 use super::{Scratch, Tracer};
+use crate::compile::Catalog;
 use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
 use bundles::Bundles;
-use dispatch::Task;
 use kernels::Chunk;
-use lanes::{Isa, LANES, Stored};
+use lanes::{F64s, Isa, LANES, Stored, Vector};
 use leaf::{MAX_CUTS, Slab, Slabs};
 use packet::{Common, Own, Packet};
 use program::Solved;
+use stream::Sorted;
 use walk::{Lead, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
 /// Pixels of a packet along x, and along y.
-const PACKET_PX: (usize, usize) = (4, 2);
+pub(crate) const PACKET_PX: (usize, usize) = (4, 2);
 /// Packets along x, and along y.
 const ACROSS: usize = TILE_PX / PACKET_PX.0;
 const DOWN: usize = TILE_PX / PACKET_PX.1;
 /// Packets in a tile.
-const PACKETS: usize = ACROSS * DOWN;
+pub(crate) const PACKETS: usize = ACROSS * DOWN;
 
 /// The packet and the lane of a pixel.
 #[inline(always)]
-fn lane_of(x: usize, y: usize) -> (usize, usize) {
+pub(crate) fn lane_of(x: usize, y: usize) -> (usize, usize) {
     (y / PACKET_PX.1 * ACROSS + x / PACKET_PX.0, y % PACKET_PX.1 * PACKET_PX.0 + x % PACKET_PX.0)
 }
 
@@ -72,8 +78,10 @@ pub struct RayTile {
     chunk: Option<Box<Chunk>>,
     /// What the rays met that were traced by themselves, by packet and lane.
     alone: Vec<(u16, TileHit)>,
-    /// Rays of a stream, sorted by the signs of their directions.
-    by_signs: [Vec<u32>; 8],
+    /// Rays of a stream, and memory to put them in.
+    sorted: Sorted,
+    eights: Vec<EightRays>,
+    found: Vec<EightHits>,
 }
 
 impl Default for RayTile {
@@ -88,7 +96,9 @@ impl Default for RayTile {
             slabs: [Slab::NOTHING; MAX_CUTS + 1],
             chunk: None,
             alone: Vec::new(),
-            by_signs: Default::default(),
+            sorted: Sorted::default(),
+            eights: Vec::new(),
+            found: Vec::new(),
         }
     }
 }
@@ -159,6 +169,14 @@ impl Tiles<'_> {
     pub fn ray(&self, tile: &RayTile, (x, y): (usize, usize)) -> Ray {
         let (packet, lane) = lane_of(x, y);
         tile.ray(packet, lane)
+    }
+
+    /// The rays of the tile, [`PACKETS`] eights of them, and what they met; a pixel's is where [`lane_of`] says.
+    pub(crate) fn eights(&self, tile: &RayTile, rays: &mut [EightRays], hits: &mut [EightHits]) {
+        self.backend.run(TakeTile { catalog: &self.tracer.catalog, tile, rays, hits });
+        for &(number, hit) in &tile.alone {
+            hits[usize::from(number) / LANES].set(usize::from(number) % LANES, hit);
+        }
     }
 
     /// What the ray of a pixel of the tile met.
@@ -247,6 +265,29 @@ impl Task for TraceTile<'_, '_> {
                 // The camera is on one side of everything.
                 packet.given_up |= packet.started_there;
             }
+        }
+    }
+}
+
+/// [`Tiles::eights`], but for the rays that were given up.
+struct TakeTile<'a> {
+    catalog: &'a Catalog,
+    tile: &'a RayTile,
+    rays: &'a mut [EightRays],
+    hits: &'a mut [EightHits],
+}
+
+impl Task for TakeTile<'_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { catalog, tile, rays, hits } = self;
+        let eye = Vector::<F64s<I>>::from_one(tile.beam.eye).stored();
+        let end = F64s::<I>::infinity().stored();
+        for ((packet, rays), hits) in tile.packets.iter().zip(rays).zip(hits) {
+            rays.origin = if tile.from_eye { eye } else { packet.origin };
+            (rays.direction, rays.end, rays.lanes) = (packet.direction, end, packet.wanted);
+            hits.forget();
+            hits.take::<I>(catalog, rays, packet, packet.wanted);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Eight rays on their way.
 
 use super::crossing::Rays;
+use super::eight::EightRays;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
 use super::walk::Scenery;
 use super::{ACROSS, PACKET_PX};
@@ -123,23 +124,37 @@ impl Packet {
         Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
-    /// Finds the inverse of directions that were [`put`](Self::put).
+    /// Takes some of these rays.
     #[inline(always)]
-    pub fn invert<I: Isa>(&mut self) {
+    pub fn follow<I: Isa>(&mut self, rays: &EightRays, lanes: u8) {
+        self.origin = Vector::<F64s<I>>::load(&rays.origin).stored();
+        self.direction = Vector::<F64s<I>>::load(&rays.direction).stored();
+        self.t = F64s::<I>::load(&rays.end).stored();
+        (self.wanted, self.met, self.given_up) = (lanes, 0, 0);
+    }
+
+    /// Takes one of these rays.
+    pub fn follow_one(&mut self, lane: usize, rays: &EightRays, from: usize) {
+        for axis in 0..3 {
+            self.origin[axis].0[lane] = rays.origin[axis].0[from];
+            self.direction[axis].0[lane] = rays.direction[axis].0[from];
+        }
+        self.t.0[lane] = rays.end.0[from];
+    }
+
+    /// Has no rays.
+    pub fn forget(&mut self) {
+        (self.wanted, self.met, self.given_up) = (0, 0, 0);
+    }
+
+    /// Makes rays that it took ready to be followed up to and including their ends.
+    #[inline(always)]
+    pub fn prepare<I: Isa>(&mut self) {
         let one = F64s::<I>::splat(1.0);
         let [x, y, z] = &self.direction;
         self.inverse = [(one / F64s::load(x)).stored(), (one / F64s::load(y)).stored(), (one / F64s::load(z)).stored()];
-    }
-
-    /// Sets a ray that is followed up to and including `end`.
-    pub fn put(&mut self, lane: usize, ray: &Ray, end: f64) {
-        for axis in 0..3 {
-            self.origin[axis].0[lane] = ray.origin[axis];
-            self.direction[axis].0[lane] = ray.direction[axis];
-        }
-        self.per_depth.0[lane] = 1.0;
-        self.t.0[lane] = end.next_up();
-        self.wanted |= 1 << lane;
+        self.per_depth = one.stored();
+        self.t = F64s::<I>::load(&self.t).next_up().stored();
     }
 
     /// Rays meet something, unless they have met something before.

@@ -1,10 +1,12 @@
 //! Many rays at once that need not have anything in common: shadow rays, mirror images, queries.
 //!
 //! Rays whose directions have the same signs meet the cells of an octree in the same order. They are put together, eight to a
-//! packet, and packets to a tile; so those that are asked for one after another should be near each other.
+//! packet, and packets to a tile; so those that are asked for one after another should be near each other. Eights most of
+//! whose rays agree stay as they are.
 
 use super::dispatch::{Backend, Task};
-use super::lanes::{Isa, LANES};
+use super::eight::{EightHits, EightRays};
+use super::lanes::{F64s, Isa, LANES, Vector};
 use super::packet::Own;
 use super::walk::{Lead, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
@@ -21,8 +23,34 @@ pub struct RayTo {
     pub end: f64,
 }
 
-/// The most rays of one tile.
-const MOST: usize = PACKETS * LANES;
+/// The rays of a stream, sorted. A ray's number is that of its eight, times the lanes, plus its lane.
+#[derive(Debug, Default)]
+pub(super) struct Sorted {
+    /// By the signs of their directions, a bit for each that is negative.
+    alike: [Alike; 8],
+    /// Those that must be traced by themselves.
+    alone: Vec<u32>,
+}
+
+/// Rays whose directions have the same signs.
+#[derive(Debug, Default)]
+struct Alike {
+    /// The better part of eights: their numbers, and the lanes.
+    together: Vec<(u32, u8)>,
+    /// Single rays.
+    loose: Vec<u32>,
+}
+
+/// Of fewer rays of an eight, each is loose.
+const TOGETHER: u32 = 4;
+
+/// What is to be found out.
+enum Answers<'a> {
+    /// What rays meet.
+    Hits(&'a mut [EightHits]),
+    /// Which rays meet anything, a bit for each lane.
+    Met(&'a mut [u8]),
+}
 
 impl Tracer {
     /// The first crossings of many rays with any body, in the order of the rays: each what
@@ -51,104 +79,273 @@ impl Tracer {
         scratch: &mut Scratch,
         hits: &mut [TileHit],
     ) {
-        let together = self.bodies.iter().all(|body| body.is_walked_by_default());
-        let usual = Usual::new(&self.bounds());
-        let mut by_signs = std::mem::take(&mut tile.by_signs);
-        for (index, RayTo { ray, end }) in rays.iter().enumerate() {
-            let is_usual = together && usual.holds(ray) && *end > 0.0;
-            if !is_usual {
-                hits[index] = self.first_body_hit(ray, *end, scratch);
-                continue;
+        let mut eights = std::mem::take(&mut tile.eights);
+        let mut found = std::mem::take(&mut tile.found);
+        eights.clear();
+        eights.extend(rays.chunks(LANES).map(|rays| {
+            let mut eight = EightRays::NONE;
+            for (lane, RayTo { ray, end }) in rays.iter().enumerate() {
+                eight.put(lane, ray, *end);
             }
-            let bit = |axis: usize| usize::from(ray.direction[axis].is_sign_negative()) << axis;
-            let signs = bit(0) | bit(1) | bit(2);
-            by_signs[signs].push(index as u32);
-            if by_signs[signs].len() == MOST {
-                self.trace_alike(signs, rays, &by_signs[signs], backend, tile, scratch, hits);
-                by_signs[signs].clear();
-            }
+            eight.fill_up();
+            eight
+        }));
+        found.resize(eights.len(), EightHits::default());
+        self.eight_hits(&eights, backend, tile, scratch, &mut found);
+        for index in 0..rays.len() {
+            hits[index] = found[index / LANES].hit(index % LANES);
         }
-        for (signs, indices) in by_signs.iter_mut().enumerate() {
-            if !indices.is_empty() {
-                self.trace_alike(signs, rays, indices, backend, tile, scratch, hits);
-                indices.clear();
-            }
-        }
-        tile.by_signs = by_signs;
+        (tile.eights, tile.found) = (eights, found);
     }
 
-    /// Traces rays whose directions have the same signs.
-    #[expect(clippy::too_many_arguments, reason = "all of what its only caller has")]
-    fn trace_alike(
+    /// As [`first_hits_into`](Self::first_hits_into), by eights.
+    pub(crate) fn eight_hits(
         &self,
-        signs: usize,
-        rays: &[RayTo],
-        indices: &[u32],
+        rays: &[EightRays],
         backend: Backend,
         tile: &mut RayTile,
         scratch: &mut Scratch,
-        hits: &mut [TileHit],
+        hits: &mut [EightHits],
     ) {
-        tile.from_eye = false;
-        for packet in &mut tile.packets {
-            (packet.wanted, packet.met, packet.given_up) = (0, 0, 0);
+        for hits in &mut *hits {
+            hits.forget();
         }
-        for (place, &index) in indices.iter().enumerate() {
-            let RayTo { ray, end } = rays[index as usize];
-            tile.packets[place / LANES].put(place % LANES, &ray, end);
+        self.stream(rays, backend, tile, scratch, &mut Answers::Hits(hits));
+    }
+
+    /// Which rays meet anything: a bit for each lane.
+    pub(crate) fn eights_met(
+        &self,
+        rays: &[EightRays],
+        backend: Backend,
+        tile: &mut RayTile,
+        scratch: &mut Scratch,
+        met: &mut [u8],
+    ) {
+        met.fill(0);
+        self.stream(rays, backend, tile, scratch, &mut Answers::Met(met));
+    }
+
+    fn stream(
+        &self,
+        rays: &[EightRays],
+        backend: Backend,
+        tile: &mut RayTile,
+        scratch: &mut Scratch,
+        answers: &mut Answers,
+    ) {
+        let mut sorted = std::mem::take(&mut tile.sorted);
+        let together = self.bodies.iter().all(|body| body.is_walked_by_default());
+        let usual = together.then(|| Usual::new(&self.bounds()));
+        backend.run(Sort { usual, rays, sorted: &mut sorted });
+        for number in sorted.alone.drain(..) {
+            let (eight, lane) = (number as usize / LANES, number as usize % LANES);
+            self.answer_alone(rays, (eight, lane), scratch, answers);
         }
-        backend.run(TraceStream { tracer: self, signs, tile, scratch });
-        for (place, &index) in indices.iter().enumerate() {
-            let (packet, lane) = (place / LANES, place % LANES);
-            let RayTo { ray, end } = rays[index as usize];
-            hits[index as usize] = match tile.packets[packet].given_up >> lane & 1 {
-                0 => tile.hit(self, packet, lane),
-                _ => self.first_body_hit(&ray, end, scratch),
-            };
+        for (signs, Alike { together, loose }) in sorted.alike.iter_mut().enumerate() {
+            let (mut left, mut loose_left) = (&together[..], &loose[..]);
+            while !(left.is_empty() && loose_left.is_empty()) {
+                let (now, loose_now);
+                (now, left) = left.split_at(left.len().min(PACKETS));
+                (loose_now, loose_left) = loose_left.split_at(loose_left.len().min((PACKETS - now.len()) * LANES));
+                let packed = Packed { rays, together: now, loose: loose_now };
+                tile.load_loose(&packed);
+                backend.run(TraceStream { tracer: self, signs, packed, tile, scratch, answers });
+                self.answer_others(&packed, tile, scratch, answers);
+            }
+            together.clear();
+            loose.clear();
+        }
+        tile.sorted = sorted;
+    }
+
+    /// What those rays met that were loose, or given up.
+    fn answer_others(&self, packed: &Packed, tile: &RayTile, scratch: &mut Scratch, answers: &mut Answers) {
+        let Packed { rays, together, loose } = *packed;
+        for (&(number, lanes), packet) in together.iter().zip(&tile.packets) {
+            let mut left = packet.given_up & lanes;
+            while left != 0 {
+                self.answer_alone(rays, (number as usize, left.trailing_zeros() as usize), scratch, answers);
+                left &= left - 1;
+            }
+        }
+        for (place, &number) in loose.iter().enumerate() {
+            let (packet, from) = (together.len() + place / LANES, place % LANES);
+            let (number, lane) = (number as usize / LANES, number as usize % LANES);
+            match answers {
+                _ if tile.packets[packet].given_up >> from & 1 != 0 => {
+                    self.answer_alone(rays, (number, lane), scratch, answers);
+                }
+                Answers::Hits(hits) => hits[number].set(lane, tile.hit(self, packet, from)),
+                Answers::Met(met) => met[number] |= (tile.packets[packet].met >> from & 1) << lane,
+            }
+        }
+    }
+
+    /// Traces a ray by itself.
+    #[cold]
+    fn answer_alone(
+        &self,
+        rays: &[EightRays],
+        (number, lane): (usize, usize),
+        scratch: &mut Scratch,
+        answers: &mut Answers,
+    ) {
+        let eight = &rays[number];
+        let hit = self.first_body_hit(&eight.ray(lane), eight.end.0[lane], scratch);
+        match answers {
+            Answers::Hits(hits) => hits[number].set(lane, hit),
+            Answers::Met(met) => met[number] |= u8::from(hit.is_some()) << lane,
         }
     }
 }
 
-/// Rays whose directions have the same signs.
-struct TraceStream<'a> {
-    tracer: &'a Tracer,
-    signs: usize,
-    tile: &'a mut RayTile,
-    scratch: &'a mut Scratch,
+/// Rays whose directions have the same signs, as many as go into a tile: those that are together first.
+#[derive(Clone, Copy)]
+struct Packed<'a> {
+    rays: &'a [EightRays],
+    together: &'a [(u32, u8)],
+    loose: &'a [u32],
 }
 
-impl Task for TraceStream<'_> {
+impl RayTile {
+    /// Takes loose rays.
+    fn load_loose(&mut self, packed: &Packed) {
+        let packets = &mut self.packets[packed.together.len()..];
+        for packet in &mut *packets {
+            packet.forget();
+        }
+        for (packet, loose) in packets.iter_mut().zip(packed.loose.chunks(LANES)) {
+            for lane in 0..LANES {
+                // Lanes without a ray of their own shall hold nothing unusual either.
+                let number = loose[lane.min(loose.len() - 1)] as usize;
+                packet.follow_one(lane, &packed.rays[number / LANES], number % LANES);
+            }
+            packet.wanted = u8::MAX >> (LANES - loose.len());
+        }
+    }
+}
+
+/// Sorts rays.
+struct Sort<'a> {
+    /// Which rays can be traced together; `None` if none can.
+    usual: Option<Usual>,
+    rays: &'a [EightRays],
+    sorted: &'a mut Sorted,
+}
+
+impl Task for Sort<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { tracer, signs, tile, scratch } = self;
-        for packet in tile.packets.iter_mut().filter(|packet| packet.wanted != 0) {
-            packet.invert::<I>();
-        }
-        for (number, body) in tracer.bodies.iter().enumerate() {
-            let Some(octree) = body.octree() else { continue };
-            for packet in &mut tile.packets {
-                packet.open = packet.wanted & !packet.given_up;
-                packet.started_there = 0;
+        let Self { usual, rays, sorted } = self;
+        for (number, eight) in (0_u32..).zip(rays) {
+            let usual = match &usual {
+                Some(usual) if eight.lanes != 0 => usual_lanes::<I>(usual, eight) & eight.lanes,
+                _ => 0,
+            };
+            let first = number * LANES as u32;
+            let mut left = eight.lanes & !usual;
+            while left != 0 {
+                sorted.alone.push(first + left.trailing_zeros());
+                left &= left - 1;
             }
-            // First those that start outside; it turns out which do not.
-            for wanted in [true, false] {
-                let (catalog, program) = (&tracer.catalog, &body.program);
-                let (body, only_plain) = (number as u32, tracer.only_plain);
-                let scenery = Scenery { catalog, program, octree, wanted, body, only_plain };
-                walk::<I, Own>(&scenery, Lead::Signs(signs), tile, scratch);
-                let mut some_started_inside = false;
-                for packet in &mut tile.packets {
-                    some_started_inside |= packet.started_there != 0;
-                    packet.open = packet.started_there;
-                    packet.started_there = 0;
-                    if !wanted {
-                        // On neither side, as it seems.
-                        packet.given_up |= packet.open;
-                    }
+            let signs = eight.direction.map(|v| F64s::<I>::load(&v).signs());
+            let mut left = usual;
+            while left != 0 {
+                let lane = left.trailing_zeros();
+                // All lanes that have the same signs.
+                let mut same = left;
+                let mut alike = 0;
+                for (axis, signs) in signs.iter().enumerate() {
+                    let sign = signs >> lane & 1;
+                    alike |= usize::from(sign) << axis;
+                    same &= if sign != 0 { *signs } else { !signs };
                 }
-                if !some_started_inside {
-                    break;
+                left &= !same;
+                let Alike { together, loose } = &mut sorted.alike[alike];
+                if same.count_ones() >= TOGETHER {
+                    together.push((number, same));
+                    continue;
                 }
+                while same != 0 {
+                    loose.push(first + same.trailing_zeros());
+                    same &= same - 1;
+                }
+            }
+        }
+    }
+}
+
+/// As [`Usual::holds`], of rays that have a stretch to be followed along.
+#[inline(always)]
+fn usual_lanes<I: Isa>(usual: &Usual, rays: &EightRays) -> u8 {
+    let (origin, direction) = (Vector::<F64s<I>>::load(&rays.origin), Vector::<F64s<I>>::load(&rays.direction));
+    let (least, most) = (F64s::splat(Usual::DIRECTIONS.start), F64s::splat(Usual::DIRECTIONS.end));
+    let largest = direction.max_abs();
+    let away = (Vector::from_one(usual.center) - origin).max_abs();
+    let ahead = F64s::load(&rays.end).gt(F64s::zero());
+    (largest.ge(least) & largest.lt(most) & away.le(F64s::splat(usual.far)) & ahead).bits()
+}
+
+/// Finds the answers for rays, but for those that are loose or given up: what those met is left in the tile.
+struct TraceStream<'a, 'b, 'c> {
+    tracer: &'a Tracer,
+    signs: usize,
+    packed: Packed<'a>,
+    tile: &'a mut RayTile,
+    scratch: &'a mut Scratch,
+    answers: &'b mut Answers<'c>,
+}
+
+impl Task for TraceStream<'_, '_, '_> {
+    #[inline(always)]
+    fn run<I: Isa>(self) {
+        let Self { tracer, signs, packed: Packed { rays, together, .. }, tile, scratch, answers } = self;
+        tile.from_eye = false;
+        for (packet, &(number, lanes)) in tile.packets.iter_mut().zip(together) {
+            packet.follow::<I>(&rays[number as usize], lanes);
+        }
+        for packet in tile.packets.iter_mut().filter(|packet| packet.wanted != 0) {
+            packet.prepare::<I>();
+        }
+        follow::<I>(tracer, signs, tile, scratch);
+        for (packet, &(number, lanes)) in tile.packets.iter().zip(together) {
+            let number = number as usize;
+            match answers {
+                Answers::Hits(hits) => hits[number].take::<I>(&tracer.catalog, &rays[number], packet, lanes),
+                Answers::Met(met) => met[number] |= packet.met & !packet.given_up & lanes,
+            }
+        }
+    }
+}
+
+/// Follows the rays of a tile through all bodies.
+#[inline(always)]
+fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
+    for (number, body) in tracer.bodies.iter().enumerate() {
+        let Some(octree) = body.octree() else { continue };
+        for packet in &mut tile.packets {
+            packet.open = packet.wanted & !packet.given_up;
+            packet.started_there = 0;
+        }
+        // First those that start outside; it turns out which do not.
+        for wanted in [true, false] {
+            let (catalog, program) = (&tracer.catalog, &body.program);
+            let (body, only_plain) = (number as u32, tracer.only_plain);
+            let scenery = Scenery { catalog, program, octree, wanted, body, only_plain };
+            walk::<I, Own>(&scenery, Lead::Signs(signs), tile, scratch);
+            let mut some_started_inside = false;
+            for packet in &mut tile.packets {
+                some_started_inside |= packet.started_there != 0;
+                packet.open = packet.started_there;
+                packet.started_there = 0;
+                if !wanted {
+                    // On neither side, as it seems.
+                    packet.given_up |= packet.open;
+                }
+            }
+            if !some_started_inside {
+                break;
             }
         }
     }

@@ -174,4 +174,33 @@ impl<const AVX2: bool> Isa for Arrays<AVX2> {
     fn select_words(mask: Mask, yes: [u32; LANES], no: [u32; LANES]) -> [u32; LANES] {
         std::array::from_fn(|i| if mask[i] != NO { yes[i] } else { no[i] })
     }
+
+    #[inline(always)]
+    fn signs(v: [f64; LANES]) -> u8 {
+        let mut bits = 0;
+        for (i, v) in v.iter().enumerate() {
+            bits |= u8::from(v.is_sign_negative()) << i;
+        }
+        bits
+    }
+
+    #[inline(always)]
+    fn plus_bits(v: [f64; LANES], bits: u64) -> [f64; LANES] {
+        v.map(|v| f64::from_bits(v.to_bits().wrapping_add(bits)))
+    }
+
+    #[inline(always)]
+    fn and_bits(v: [f64; LANES], bits: u64) -> [f64; LANES] {
+        v.map(|v| f64::from_bits(v.to_bits() & bits))
+    }
+
+    #[inline(always)]
+    fn shift_left(v: [f64; LANES], by: u32) -> [f64; LANES] {
+        v.map(|v| f64::from_bits(v.to_bits() << by))
+    }
+
+    #[inline(always)]
+    fn shift_right(v: [f64; LANES], by: u32) -> [f64; LANES] {
+        v.map(|v| f64::from_bits(v.to_bits() >> by))
+    }
 }

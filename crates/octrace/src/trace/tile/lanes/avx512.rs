@@ -59,6 +59,15 @@ impl Isa for Avx512 {
             _mm256_storeu_si256(chosen.as_mut_ptr().cast(), _mm256_mask_blend_epi32(mask, no, yes));
             chosen
         };
+        signs(v: __m512d) -> u8 = _mm512_movepi64_mask(_mm512_castpd_si512(v));
+        plus_bits(v: __m512d, bits: u64) -> __m512d =
+            _mm512_castsi512_pd(_mm512_add_epi64(_mm512_castpd_si512(v), _mm512_set1_epi64(bits as i64)));
+        and_bits(v: __m512d, bits: u64) -> __m512d =
+            _mm512_castsi512_pd(_mm512_and_si512(_mm512_castpd_si512(v), _mm512_set1_epi64(bits as i64)));
+        shift_left(v: __m512d, by: u32) -> __m512d =
+            _mm512_castsi512_pd(_mm512_sllv_epi64(_mm512_castpd_si512(v), _mm512_set1_epi64(i64::from(by))));
+        shift_right(v: __m512d, by: u32) -> __m512d =
+            _mm512_castsi512_pd(_mm512_srlv_epi64(_mm512_castpd_si512(v), _mm512_set1_epi64(i64::from(by))));
         store(v: __m512d) -> Stored = {
             let mut stored = Stored::default();
             _mm512_store_pd(stored.0.as_mut_ptr(), v);

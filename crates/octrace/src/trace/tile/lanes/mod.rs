@@ -7,33 +7,35 @@
 mod arrays;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod power;
+mod vector;
 
 #[cfg(target_arch = "x86_64")]
 pub(super) use arrays::Avx2;
 pub(super) use arrays::Portable;
 #[cfg(target_arch = "x86_64")]
 pub(super) use avx512::Avx512;
+pub(crate) use vector::{Number, Vector};
 
-use crate::geom::Vec3;
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// How many lanes there are.
-pub(super) const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
 /// Eight numbers in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(64))]
-pub(super) struct Stored(pub [f64; LANES]);
+pub(crate) struct Stored(pub [f64; LANES]);
 
 /// Something to do that is compiled as a function of its own, for an instruction set. Its `run` must be `#[inline(always)]`.
-pub(super) trait Kernel {
+pub(crate) trait Kernel {
     fn run(self);
 }
 
 /// An instruction set: what can be done with eight numbers.
 ///
 /// Its functions are safe to call only on machines that have it: see [`super::dispatch`], the only place that chooses one.
-pub(super) trait Isa: Copy {
+pub(crate) trait Isa: Copy {
     /// Eight numbers.
     type Numbers: Copy;
     /// Eight times yes or no.
@@ -69,13 +71,23 @@ pub(super) trait Isa: Copy {
     fn differing(words: &[u32; LANES], other: u32) -> u8;
     /// `yes` where the mask says so.
     fn select_words(mask: Self::Mask, yes: [u32; LANES], no: [u32; LANES]) -> [u32; LANES];
+    /// Of eight numbers those whose sign bit is set, a bit for each.
+    fn signs(v: Self::Numbers) -> u8;
+    /// Numbers as their bits: adds to them, without carrying over.
+    fn plus_bits(v: Self::Numbers, bits: u64) -> Self::Numbers;
+    /// Numbers as their bits: keeps those that are set.
+    fn and_bits(v: Self::Numbers, bits: u64) -> Self::Numbers;
+    /// Numbers as their bits, shifted up.
+    fn shift_left(v: Self::Numbers, by: u32) -> Self::Numbers;
+    /// Numbers as their bits, shifted down.
+    fn shift_right(v: Self::Numbers, by: u32) -> Self::Numbers;
 }
 
 /// Eight numbers.
-pub(super) struct F64s<I: Isa>(pub I::Numbers);
+pub(crate) struct F64s<I: Isa>(pub I::Numbers);
 
 /// Eight times yes or no.
-pub(super) struct Mask<I: Isa>(pub I::Mask);
+pub(crate) struct Mask<I: Isa>(pub I::Mask);
 
 impl<I: Isa> Copy for F64s<I> {}
 impl<I: Isa> Clone for F64s<I> {
@@ -197,6 +209,18 @@ impl<I: Isa> F64s<I> {
         o.le(self)
     }
 
+    /// Those whose sign bit is set, a bit for each, the first one's lowest.
+    #[inline(always)]
+    pub fn signs(self) -> u8 {
+        I::signs(self.0)
+    }
+
+    /// As [`f64::next_up`], of positive numbers.
+    #[inline(always)]
+    pub fn next_up(self) -> Self {
+        self.is_finite().select(Self(I::plus_bits(self.0, 1)), self)
+    }
+
     /// Which are numbers, and not infinite.
     #[inline(always)]
     pub fn is_finite(self) -> Mask<I> {
@@ -241,85 +265,5 @@ impl<I: Isa> Mask<I> {
     #[inline(always)]
     pub fn select_words(self, yes: [u32; LANES], no: [u32; LANES]) -> [u32; LANES] {
         I::select_words(self.0, yes, no)
-    }
-}
-
-/// One number for all lanes, or eight.
-pub(super) trait Number<I: Isa>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    fn from_one(v: f64) -> Self;
-    /// In eight lanes.
-    fn lanes(self) -> F64s<I>;
-}
-
-impl<I: Isa> Number<I> for f64 {
-    #[inline(always)]
-    fn from_one(v: f64) -> Self {
-        v
-    }
-
-    #[inline(always)]
-    fn lanes(self) -> F64s<I> {
-        F64s::splat(self)
-    }
-}
-
-impl<I: Isa> Number<I> for F64s<I> {
-    #[inline(always)]
-    fn from_one(v: f64) -> Self {
-        Self::splat(v)
-    }
-
-    #[inline(always)]
-    fn lanes(self) -> Self {
-        self
-    }
-}
-
-/// Points or directions: eight, or one for all lanes.
-#[derive(Clone, Copy)]
-pub(super) struct Vector<N> {
-    pub x: N,
-    pub y: N,
-    pub z: N,
-}
-
-impl<N: Copy> Vector<N> {
-    #[inline(always)]
-    pub fn new(x: N, y: N, z: N) -> Self {
-        Self { x, y, z }
-    }
-
-    #[inline(always)]
-    pub fn map<M>(self, f: impl Fn(N) -> M) -> Vector<M> {
-        Vector { x: f(self.x), y: f(self.y), z: f(self.z) }
-    }
-
-    /// As [`Vec3::dot`], of the two in this order.
-    #[inline(always)]
-    pub fn dot(self, o: Self) -> N
-    where
-        N: Add<Output = N> + Mul<Output = N>,
-    {
-        self.x * o.x + self.y * o.y + self.z * o.z
-    }
-
-    /// As [`Vec3::cross`].
-    #[inline(always)]
-    pub fn cross(self, o: Self) -> Self
-    where
-        N: Sub<Output = N> + Mul<Output = N>,
-    {
-        Self::new(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
-    }
-}
-
-impl<N> Vector<N> {
-    /// The same for all lanes.
-    #[inline(always)]
-    pub fn from_one<I: Isa>(v: Vec3) -> Self
-    where
-        N: Number<I>,
-    {
-        Self { x: N::from_one(v.x), y: N::from_one(v.y), z: N::from_one(v.z) }
     }
 }
