@@ -48,8 +48,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             self.evaluate(words, packets, cube, (0.0, f64::INFINITY));
             return;
         }
-        let margin = self.scenery.octree.margin;
-        let (near, far) = self.beam.depths(center, half + margin);
+        let (margin, offset) = (self.scenery.octree.margin, self.scenery.offset);
+        let (near, far) = self.beam.depths(center + offset, half + margin);
         self.slabs[0] = Slab { words: Pruned::new(words), near, far, parts: u8::MAX, cuts: 0 };
         let mut count = 1;
         while count > 0 {
@@ -63,7 +63,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             if parts == 0 {
                 continue;
             }
-            let region = Parts::<I>::new(self.beam, (near, far), margin);
+            let region = Parts::<I>::new(self.beam, (near, far), margin, offset);
             self.known.learn(self.scenery.catalog, words.words(), &region);
             let (always, never) = self.known.decided();
             let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };

@@ -6,7 +6,7 @@ use super::packet::Origins;
 use super::program::{CHUNK, is_short};
 use super::walk::Walk;
 use crate::compile::Constant;
-use crate::octree::Octree;
+use crate::geom::Bounds;
 
 impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// The stretches before the octree's root.
@@ -28,7 +28,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Stretches outside the octree's root: what `stretch` makes of those inside.
     #[inline(always)]
     fn outer(&mut self, stretch: impl Fn(F64s<I>, F64s<I>, Mask<I>) -> (Mask<I>, Stretch<I>)) {
-        let Octree { center, half, .. } = *self.scenery.octree;
+        let Bounds { min, max } = self.scenery.octree.bounds();
         let words = match &self.scenery.program.outer {
             Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
             Constant::Everywhere(_) => return,
@@ -37,7 +37,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let mut chunk = self.chunk.take().unwrap_or_default();
         chunk.count = 0;
         for number in bits_of(self.open) {
-            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
+            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], (min, max));
             let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
             let here = rays & Mask::from_bits(self.packets[number].open);
             match words {

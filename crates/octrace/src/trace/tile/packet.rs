@@ -4,6 +4,7 @@ use super::crossing::Rays;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
 use super::walk::Scenery;
 use super::{ACROSS, PACKET_PX};
+use crate::compile::Word;
 use crate::geom::{Ray, Vec3};
 use crate::model::CameraRays;
 use crate::trace::Scratch;
@@ -11,7 +12,8 @@ use crate::trace::Scratch;
 /// How rays start: all from one point, or each from its own.
 pub(super) trait Origins<I: Isa> {
     type Number: Number<I>;
-    fn of(packet: &Packet, eye: Vec3) -> Vector<Self::Number>;
+    /// Where a packet's rays start, seen from `from`; `eye` is the one point.
+    fn of(packet: &Packet, eye: Vec3, from: Vec3) -> Vector<Self::Number>;
 }
 
 /// From one point.
@@ -24,7 +26,8 @@ impl<I: Isa> Origins<I> for Common {
     type Number = f64;
 
     #[inline(always)]
-    fn of(_packet: &Packet, eye: Vec3) -> Vector<f64> {
+    fn of(_packet: &Packet, eye: Vec3, from: Vec3) -> Vector<f64> {
+        let eye = eye - from;
         Vector::new(eye.x, eye.y, eye.z)
     }
 }
@@ -33,9 +36,9 @@ impl<I: Isa> Origins<I> for Own {
     type Number = F64s<I>;
 
     #[inline(always)]
-    fn of(packet: &Packet, _eye: Vec3) -> Vector<F64s<I>> {
+    fn of(packet: &Packet, _eye: Vec3, from: Vec3) -> Vector<F64s<I>> {
         let [x, y, z] = &packet.origin;
-        Vector::new(F64s::load(x), F64s::load(y), F64s::load(z))
+        Vector::<F64s<I>>::new(F64s::load(x), F64s::load(y), F64s::load(z)).minus(from)
     }
 }
 
@@ -64,6 +67,8 @@ pub(super) struct Packet {
     pub wanted: u8,
     /// Rays that have met nothing of the present body so far.
     pub open: u8,
+    /// Open rays that wait while others are in a copy of a solid.
+    pub aside: u8,
     /// Rays that have met something, and which of them enter it.
     pub met: u8,
     pub entering: u8,
@@ -116,11 +121,11 @@ impl Packet {
         self.given_up = 0;
     }
 
-    /// Its rays; `eye` is where they start if they start at one point.
+    /// Its rays, seen from `from`; `eye` is where they start if they start at one point.
     #[inline(always)]
-    pub fn rays<I: Isa, O: Origins<I>>(&self, eye: Vec3) -> Rays<I, O::Number> {
+    pub fn rays<I: Isa, O: Origins<I>>(&self, eye: Vec3, from: Vec3) -> Rays<I, O::Number> {
         let [x, y, z] = &self.direction;
-        Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
+        Rays { origin: O::of(self, eye, from), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
     /// Finds the inverse of directions that were [`put`](Self::put).
@@ -148,6 +153,7 @@ impl Packet {
         let before = F64s::load(&self.t);
         let first = rays & t.lt(before);
         self.t = first.select(t, before).stored();
+        let words = words.map(|word| word.wrapping_add(scenery.literal_shift));
         self.words = first.select_words(words, self.words);
         self.bodies = first.select_words([scenery.body; LANES], self.bodies);
         self.note(first.bits(), scenery.wanted);
@@ -215,7 +221,8 @@ impl Packet {
             match change.word {
                 Some(word) if change.after == scenery.wanted => {
                     if t < self.t.0[lane] {
-                        (self.t.0[lane], self.words[lane], self.bodies[lane]) = (t, word, scenery.body);
+                        (self.t.0[lane], self.words[lane], self.bodies[lane]) =
+                            (t, Word::shifted(word, scenery.literal_shift), scenery.body);
                         self.note(bit, scenery.wanted);
                     }
                     self.open &= !bit;

@@ -26,10 +26,11 @@ pub(super) struct Parts<I: Isa> {
 }
 
 impl<I: Isa> Parts<I> {
-    /// The parts between the depths, with a margin all around.
+    /// The parts between the depths, with a margin all around, seen from `from`.
     #[inline(always)]
-    pub fn new(beam: &Beam, (near, far): (f64, f64), margin: f64) -> Self {
+    pub fn new(beam: &Beam, (near, far): (f64, f64), margin: f64, from: Vec3) -> Self {
         let (origin, direction) = beam.middles();
+        let origin = origin.minus::<I>(from);
         let sides = match beam.parallel {
             true => beam.half_part,
             false => beam.half_part.map(|side| side * far),
@@ -126,7 +127,7 @@ impl Known {
                     let (inside, outside) = match surface_of(catalog, words[at]) {
                         Some(Surface::Plane(plane)) => parts.plane(plane),
                         Some(Surface::Quadric(quadric)) => parts.quadric(quadric),
-                        Some(Surface::Torus(_) | Surface::Mesh(_)) | None => (0, 0),
+                        Some(Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_)) | None => (0, 0),
                     };
                     if negated { (outside, inside) } else { (inside, outside) }
                 }
