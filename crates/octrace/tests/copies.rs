@@ -2,13 +2,14 @@
 
 mod common;
 
-use common::{cases, lattice_primitive};
+use common::{cases, lattice_primitive, lattice_ray};
 use octrace::compile::Copies;
 use octrace::exec::Exec;
 use octrace::model::families::{classic, copies};
 use octrace::octree::BuildOptions;
 use octrace::query::{MeasureOptions, measure};
 use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX};
+use octrace::traverse::TraversalKind;
 use octrace::{Accel, Camera, PartId, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
 use proptest::prelude::*;
 
@@ -234,5 +235,30 @@ proptest! {
         let eye = Vec3::new(eye.0, eye.1, eye.2);
         let camera = camera(eye, Vec3::new(14.0, 15.0, 9.0), Projection::Perspective { fov_deg: 60.0 });
         compare(&solid, BuildOptions { leaf_surfaces, depth }, &camera, 16)?;
+    }
+
+    /// Rays from anywhere to anywhere, walked in every way: the spans of whole lines, and what is crossed first.
+    #[test]
+    fn rays_pass_copies_as_without_an_octree(
+        first in lattice_primitive(),
+        second in lattice_primitive(),
+        rays in prop::collection::vec((lattice_ray(), 0..4_i32, 0..4_i32, 0..3_i32), 20),
+        traversal in prop::sample::select(TraversalKind::ALL.to_vec()),
+        depth in prop::option::of(1_u32..7),
+    ) {
+        let room = Solid::block().scale([7.0; 3]).translate([-3.5; 3]);
+        let solid = grid(&((first & room.clone()) + (room - second)), 40, 9.3);
+        prop_assume!(shared(&solid).stats().copies > 0);
+        let expected = canonical(&solid);
+        let octree = BuildOptions { leaf_surfaces: 2, depth };
+        let tested = tracer(&solid, TracerOptions { octree, traversal, ..TracerOptions::default() });
+        let mut scratch = Scratch::default();
+        for (mut ray, x, y, z) in rays {
+            ray.origin += Vec3::from([x, y, z].map(|i| f64::from(i) * 9.3 + 0.1));
+            prop_assert_eq!(tested.spans_with(&ray, &mut scratch), expected.spans(&ray));
+            prop_assert_eq!(tested.first_hit_within(&ray, 5.0, &mut scratch), expected.first_hit_within(&ray, 5.0, &mut Scratch::default()));
+            prop_assert_eq!(tested.contains(ray.origin), expected.contains(ray.origin));
+        }
+        prop_assert_eq!(scratch.counters.leaks, 0);
     }
 }

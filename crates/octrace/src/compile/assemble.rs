@@ -32,7 +32,7 @@ pub fn compile(bodies: &[Solid], snap: f64, copies: Copies) -> Compiled {
     let (mut programs, kinds): (Vec<Program>, Vec<Kind>) = match plan {
         None => (bodies.iter().map(|body| lowering.program_of(body, &Affine::IDENTITY)).collect(), Vec::new()),
         Some(plan) => {
-            let programs = plan.bodies.iter().map(|body| lowering.program_of_union(body, &plan.kinds)).collect();
+            let programs = plan.bodies().map(|body| lowering.program_of_union(body, &plan.kinds)).collect();
             (programs, plan.kinds)
         }
     };

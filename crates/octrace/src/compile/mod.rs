@@ -1,6 +1,8 @@
 //! From the CSG tree to a program: what is evaluated along rays and simplified in cells.
 
 mod assemble;
+mod census;
+mod clear;
 mod copies;
 mod draft;
 mod face;

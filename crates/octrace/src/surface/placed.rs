@@ -4,7 +4,7 @@ use super::{CellBox, OctantSides, Octants, Side, halves};
 use crate::geom::{Bounds, Ray, Vec3};
 
 /// A solid that is stored once, in one of the places where it stands. What it looks like is known to the catalogue of the
-/// program: see [`Prototype`](crate::compile::Prototype).
+/// program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
     /// A box around it.

@@ -7,7 +7,7 @@ use crate::compile::{Catalog, Constant, Program, Word};
 use crate::geom::{Hit, Ray};
 use crate::octree::{Cell, Octree};
 use crate::surface::Placed;
-use crate::traverse::{Step, Traversal, root_interval};
+use crate::traverse::{Step, Traversal, interval, root_interval};
 use std::ops::ControlFlow;
 
 /// Why a march ended before its end.
@@ -17,6 +17,15 @@ pub(crate) enum Stop<B> {
     /// The cells contradict each other: something changed where nothing is crossed. Never seen in tests; the ray is
     /// traced canonically then, and counted.
     Leak,
+}
+
+/// What of the copies of solids a march has been through.
+#[derive(Clone, Copy)]
+enum Passed {
+    /// Parts, cell by cell.
+    Parts,
+    /// All of the latest, given by its word.
+    Copy(Option<u32>),
 }
 
 /// In programs of up to so many words, changes are looked for one after another: mostly the first is all that is wanted.
@@ -34,13 +43,26 @@ pub(crate) struct March<'a> {
     ray_here: Ray,
     /// What is added to the numbers of literals where the march is.
     literal_shift: u32,
+    passed: Passed,
+    /// Where the march ends.
+    end: f64,
     inside: Option<bool>,
 }
 
 impl<'a> March<'a> {
     pub fn new(catalog: &'a Catalog, prototypes: &'a [Body], ray: &'a Ray, scratch: &'a mut Scratch) -> Self {
         scratch.roots.begin_ray();
-        Self { catalog, prototypes, scratch, ray, ray_here: *ray, literal_shift: 0, inside: None }
+        Self {
+            catalog,
+            prototypes,
+            scratch,
+            ray,
+            ray_here: *ray,
+            literal_shift: 0,
+            passed: Passed::Parts,
+            end: f64::INFINITY,
+            inside: None,
+        }
     }
 
     /// Shows `on_hit` the crossings after `start` up to `end`, in order, until it breaks off.
@@ -51,6 +73,11 @@ impl<'a> March<'a> {
         (start, end): (f64, f64),
         mut on_hit: impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
+        self.end = end;
+        self.passed = match accelerator {
+            Some((octree, _)) if !octree.has_mixed_leaves => Passed::Copy(None),
+            _ => Passed::Parts,
+        };
         let interval = accelerator.and_then(|(octree, walk)| Some((octree, walk, root_interval(octree, self.ray)?)));
         let Some((octree, traversal, (root_in, root_out))) = interval else {
             return self.constant(&program.outer, start, end, &mut on_hit);
@@ -99,19 +126,31 @@ impl<'a> March<'a> {
             && let Some(placed) = self.catalog.placed_by(*word)
             && let Some(cells) = self.prototypes[placed.prototype as usize].octree_and_traversal()
         {
-            return self.copy(placed, cells, (t_in, t_out), on_hit);
+            return self.copy(*word, placed, cells, (t_in, t_out), on_hit);
         }
         self.words(words, t_in, t_out, on_hit)
     }
 
-    /// A stretch with nothing but one copy of a solid: the march goes on in the solid's own octree.
+    /// A stretch with nothing but one copy of a solid: the march goes on in the solid's own octree. In a copy's box there is
+    /// nothing else, so it goes through all of the copy at once, where the ray comes to that box.
     fn copy<B>(
         &mut self,
+        word: u32,
         placed: &Placed,
         (octree, traversal): (&Octree, &Traversal),
-        (t_in, t_out): (f64, f64),
+        (t_in, mut t_out): (f64, f64),
         on_hit: &mut impl FnMut(Hit) -> ControlFlow<B>,
     ) -> ControlFlow<Stop<B>> {
+        if let Passed::Copy(passed) = &mut self.passed {
+            match interval(&placed.bounds, self.ray) {
+                _ if *passed == Some(word) => return ControlFlow::Continue(()),
+                Some((from, to)) if from <= t_out && t_in <= to => {
+                    *passed = Some(word);
+                    t_out = self.end;
+                }
+                _ => return self.settled(false),
+            }
+        }
         let ray = placed.ray(self.ray);
         let stretch = root_interval(octree, &ray).map(|(root_in, root_out)| (root_in.max(t_in), root_out.min(t_out)));
         let Some((from, to)) = stretch.filter(|(from, to)| from <= to) else { return self.settled(false) };

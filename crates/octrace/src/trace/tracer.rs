@@ -218,8 +218,13 @@ impl Tracer {
         &self.report
     }
 
-    /// The program of each body for people to read.
+    /// The program of each body, and of each solid with copies, for people to read.
     pub fn program_text(&self) -> String {
-        self.bodies.iter().map(|body| program_text(&self.catalog, &body.program.whole)).collect()
+        let bodies = self.bodies.iter().map(|body| program_text(&self.catalog, &body.program.whole));
+        let solids = self.catalog.prototypes.iter().enumerate().map(|(number, prototype)| {
+            let copies = prototype.copies;
+            format!("solid {number}, {copies} copies\n{}", program_text(&self.catalog, &prototype.program.whole))
+        });
+        bodies.chain(solids).collect()
     }
 }

@@ -153,7 +153,11 @@ impl Packet {
         let before = F64s::load(&self.t);
         let first = rays & t.lt(before);
         self.t = first.select(t, before).stored();
-        let words = words.map(|word| word.wrapping_add(scenery.literal_shift));
+        // Not a closure: those may be compiled by themselves.
+        let mut words = words;
+        for word in &mut words {
+            *word = word.wrapping_add(scenery.literal_shift);
+        }
         self.words = first.select_words(words, self.words);
         self.bodies = first.select_words([scenery.body; LANES], self.bodies);
         self.note(first.bits(), scenery.wanted);
