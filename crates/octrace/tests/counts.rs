@@ -87,6 +87,13 @@ fn blocks_side_by_side() {
     check("blocks_side_by_side", &Scene::new(Solid::union((0..16).map(at))));
 }
 
+/// Copies that are stored once: the numbers are those of one solid, and of where it stands.
+#[test]
+fn copies_of_the_classic() {
+    let at = |i: i32| [f64::from(i % 6) * 3.0, f64::from(i / 6) * 3.0, 0.25];
+    check("copies", &Scene::new(Solid::union((0..36).map(|i| classic().translate(at(i))))));
+}
+
 /// Two bodies, and something unbounded.
 #[test]
 fn glass_on_a_floor() {

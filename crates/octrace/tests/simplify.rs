@@ -3,7 +3,7 @@
 mod common;
 
 use common::{cases, lattice, lattice_point, lattice_solid};
-use octrace::compile::{Catalog, Constant, Simplified, Simplifier, Word, compile, node_end};
+use octrace::compile::{Catalog, Constant, Copies, Simplified, Simplifier, Word, compile, node_end};
 use octrace::surface::CellBox;
 use octrace::{Ray, Vec3};
 use proptest::prelude::*;
@@ -61,7 +61,7 @@ proptest! {
         half in half_edges(),
         points in prop::collection::vec((-1.0..1.0, -1.0..1.0, -1.0..1.0), 12),
     ) {
-        let compiled = compile(&[solid], 0.0);
+        let compiled = compile(&[solid], 0.0, Copies::Apart);
         let catalog = &compiled.catalog;
         let whole = &compiled.bodies[0].whole;
         let mut simplifier = Simplifier::default();

@@ -336,6 +336,7 @@ impl TraceArgs {
                 depth: self.octree_depth.or(BuildOptions::default().depth),
             },
             snap,
+            ..TracerOptions::default()
         }
     }
 

@@ -100,7 +100,7 @@ impl Workshop<'_> {
     /// Compiles; and compiles and builds.
     fn build(&self, times: &mut Times) -> Result<Tracer, Failure> {
         let options = TracerOptions { snap: self.scene.scene.snap, ..self.plan.tracer };
-        let (_, took) = timed(|| black_box(compile(&self.bodies, options.snap)));
+        let (_, took) = timed(|| black_box(compile(&self.bodies, options.snap, options.copies)));
         times.compile.push(took.cpu_s);
         let (tracer, took) = timed(|| Tracer::build_bodies(&self.bodies, &options, self.exec));
         times.build.push(took.cpu_s);

@@ -69,6 +69,10 @@ fn summary(source: &Source, loaded: &Loaded, tracer: &Tracer) -> String {
             stats.bodies, stats.primitives, stats.surfaces, stats.literals
         ),
     );
+    if stats.copies > 0 {
+        let solids = tracer.catalog().prototypes.len();
+        line("copies", format!("{} of {solids} solids, which are stored once", stats.copies));
+    }
     let report = tracer.compile_report();
     let moved = match report.snapped_surfaces {
         0 => "nothing was moved".to_owned(),

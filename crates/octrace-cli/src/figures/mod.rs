@@ -17,6 +17,7 @@ mod slice;
 mod spans;
 
 use crate::failure::Failure;
+use octrace::compile::Copies;
 use octrace::exec::Exec;
 use octrace::film::{self, View};
 use octrace::octree::BuildOptions;
@@ -56,7 +57,8 @@ pub struct Subject<'a> {
 pub fn draw(subject: &Subject, exec: &Exec) -> Result<[String; 5], Failure> {
     let Subject { scene, view, pixel: (x, y), .. } = *subject;
     // The octree is that of the paper, of one solid, whatever it is made of.
-    let options = TracerOptions { octree: subject.octree, snap: scene.snap, ..TracerOptions::default() };
+    let options =
+        TracerOptions { octree: subject.octree, snap: scene.snap, copies: Copies::Apart, ..TracerOptions::default() };
     let whole = Tracer::build(&scene.solid, &options, exec)?;
     let slice = Slice::new(&whole, subject.slice_z)?;
     let ray = view.camera.rays(view.width_px, view.height_px).ray(f64::from(x) + 0.5, f64::from(y) + 0.5);

@@ -65,16 +65,16 @@ pub fn rows(catalog: &Catalog, words: &[u32], names: &[String], most: usize) -> 
 /// The numbers of the primitives that a program mentions.
 pub fn primitives(catalog: &Catalog, words: &[u32]) -> BTreeSet<u32> {
     let leaf = |&word: &u32| match Word::decode(word) {
-        Word::Literal { index, .. } => Some(catalog.literals[index as usize].leaf),
+        Word::Literal { index, .. } => Some(catalog.literal(index).leaf),
         Word::And { .. } | Word::Or { .. } => None,
     };
     words.iter().filter_map(leaf).collect()
 }
 
 fn literal(catalog: &Catalog, index: u32, negated: bool, names: &[String]) -> String {
-    let literal = catalog.literals[index as usize];
+    let literal = catalog.literal(index);
     let primitive = names.get(literal.leaf as usize).map_or("", String::as_str);
-    match &catalog.surfaces[literal.surface as usize] {
+    match literal.surface {
         Surface::Plane(plane) => format!("{primitive}: {}", half_space(plane, negated)),
         _ if negated => format!("outside {primitive}"),
         _ => format!("inside {primitive}"),
@@ -139,13 +139,13 @@ pub fn draw(sheet: &mut Sheet, (x, y): (f64, f64), width: f64, rows: &[Row]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use octrace::compile::{Constant, compile};
+    use octrace::compile::{Constant, Copies, compile};
     use octrace::{Solid, Vec3};
 
     #[test]
     fn surfaces_are_named_and_long_programs_cut() {
         let solid = Solid::block() - Solid::sphere();
-        let compiled = compile(std::slice::from_ref(&solid), 0.0);
+        let compiled = compile(std::slice::from_ref(&solid), 0.0, Copies::Apart);
         let Constant::Words(words) = &compiled.bodies[0].whole else { panic!("a solid with surfaces") };
         let names = ["block 0", "sphere 1"].map(String::from);
         let text = |row: &Row| match &row.what {

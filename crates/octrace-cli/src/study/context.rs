@@ -4,6 +4,7 @@ use super::scenes::StudyScene;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, Listening};
 use crate::session::Session;
+use octrace::compile::Copies;
 use octrace::exec::{Exec, Progress, Silent};
 use octrace::{Tracer, TracerOptions};
 use std::sync::Arc;
@@ -29,8 +30,9 @@ impl<'a> Context<'a> {
         Self { interrupt: &session.interrupt, progress, exec, _listening: session.interrupt.listen() }
     }
 
-    /// Builds a tracer for a scene.
+    /// Builds a tracer for a scene. What is studied are octrees of whole scenes, so no solid stands for others.
     pub fn build(&self, scene: &StudyScene, options: &TracerOptions) -> Result<Tracer, Failure> {
-        Ok(Tracer::build_bodies(&scene.bodies, options, &self.exec)?)
+        let options = TracerOptions { copies: Copies::Apart, ..*options };
+        Ok(Tracer::build_bodies(&scene.bodies, &options, &self.exec)?)
     }
 }

@@ -3,18 +3,18 @@
 use crate::scenes::{NAMES, exec, solid};
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use octrace::compile::compile;
+use octrace::compile::{Copies, compile};
 use octrace::{Tracer, TracerOptions};
 
 fn primitives(name: &str) -> ItemsCount {
-    ItemsCount::new(compile(&[solid(name)], 0.0).catalog.leaves.len())
+    ItemsCount::new(compile(&[solid(name)], 0.0, Copies::Shared).catalog.leaves.len())
 }
 
 /// The tree becomes a program.
 #[divan::bench(args = NAMES, max_time = 2)]
 fn compiling(bencher: Bencher, name: &str) {
     let bodies = [solid(name)];
-    bencher.counter(primitives(name)).bench_local(|| compile(&bodies, 0.0));
+    bencher.counter(primitives(name)).bench_local(|| compile(&bodies, 0.0, Copies::Shared));
 }
 
 /// The same, and the program is cut up in an octree.

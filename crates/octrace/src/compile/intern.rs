@@ -24,6 +24,17 @@ pub struct CompileReport {
     pub largest_move: f64,
 }
 
+impl CompileReport {
+    /// Of both together.
+    pub(super) fn and(self, o: Self) -> Self {
+        Self {
+            tolerance: self.tolerance.max(o.tolerance),
+            snapped_surfaces: self.snapped_surfaces + o.snapped_surfaces,
+            largest_move: self.largest_move.max(o.largest_move),
+        }
+    }
+}
+
 /// Gives every face a surface; coincident ones the same. Returns the references in the order of `faces`.
 pub(super) fn intern(
     faces: &[Face],

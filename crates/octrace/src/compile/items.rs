@@ -307,13 +307,13 @@ fn boxes(catalog: &Catalog, entries: &[Entry], lattice: &Lattice) -> Vec<Lattice
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Constant, compile};
+    use super::super::{Constant, Copies, compile};
     use super::*;
     use crate::model::families::copies;
 
     #[test]
     fn a_program_with_items_is_short_and_opens_to_what_it_was() {
-        let compiled = compile(&[copies(100)], 0.0);
+        let compiled = compile(&[copies(100)], 0.0, Copies::Apart);
         let body = &compiled.bodies[0];
         let Constant::Words(words) = &body.whole else { panic!("a program") };
         let entries: Vec<Entry> = words.iter().map(|&word| Entry::new(&compiled.catalog, word)).collect();

@@ -1,61 +1,14 @@
-//! From solids to programs: primitives become intersections of surfaces, coincident surfaces one.
+//! From solids to programs over faces: primitives become intersections of them. Surfaces are found for them later.
 
+use super::copies::{Kind, Operand, moved};
 use super::draft::{Draft, Op, Value};
 use super::face::Face;
-use super::intern::intern;
-use super::{Catalog, CompileReport, Constant, Leaf, Literal, Program, Word};
+use super::{Leaf, Program};
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, PartId, Solid};
-use crate::primitive::{FacePlane, Mesh, MovedFace, Polyhedron, Primitive, SurfaceRef};
-use crate::surface::{Plane, QuadricKind, Surface};
+use crate::primitive::{FacePlane, Polyhedron, Primitive};
+use crate::surface::{Plane, QuadricKind};
 use std::sync::Arc;
-
-/// Everything about some bodies that does not depend on where one looks.
-#[derive(Clone, Debug)]
-pub struct Compiled {
-    /// What the programs refer to.
-    pub catalog: Catalog,
-    /// A program for each body.
-    pub bodies: Vec<Program>,
-    /// What joining coincident surfaces did.
-    pub report: CompileReport,
-}
-
-/// Compiles bodies that share their surfaces. `snap` is the import tolerance relative to the size of everything bounded.
-///
-/// # Panics
-/// If there are more than 2³⁰ uses of surfaces.
-pub fn compile(bodies: &[Solid], snap: f64) -> Compiled {
-    let mut lowering = Lowering { snap, ..Lowering::default() };
-    let mut programs: Vec<Program> = bodies.iter().map(|body| lowering.program(body)).collect();
-    let extent = programs.iter().fold(Bounds::EMPTY, |all, program| all.union(program.bounds));
-
-    let mut catalog = Catalog { leaves: lowering.leaves, ..Catalog::default() };
-    let (refs, report) = intern(&lowering.faces, &extent, snap, &mut catalog.surfaces);
-    let meshes: Vec<SurfaceRef> =
-        lowering.meshes.iter().map(|pending| pending.build(&refs, report.tolerance, &mut catalog.surfaces)).collect();
-    let surface_of = |literal: &PendingLiteral| match literal.shape {
-        Shape::Face(face) => refs[face as usize],
-        Shape::Mesh(mesh) => meshes[mesh as usize],
-    };
-    let literals = &lowering.literals;
-    catalog.literals = literals.iter().map(|l| Literal { surface: surface_of(l).surface, leaf: l.leaf }).collect();
-    assert!(literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
-
-    // Faces stored the other way round turn their literals' signs.
-    for program in &mut programs {
-        for part in [&mut program.whole, &mut program.outer] {
-            let Constant::Words(words) = part else { continue };
-            for word in words {
-                if let Word::Literal { index, negated } = Word::decode(*word) {
-                    let flipped = surface_of(&literals[index as usize]).flipped;
-                    *word = Word::Literal { index, negated: negated ^ flipped }.encode();
-                }
-            }
-        }
-    }
-    Compiled { catalog, bodies: programs, report }
-}
 
 /// What came of a subtree.
 struct Lowered {
@@ -77,56 +30,103 @@ impl Lowered {
     }
 }
 
+/// Programs whose literals have no surfaces yet.
 #[derive(Default)]
-struct Lowering {
+pub(super) struct Lowering {
     snap: f64,
-    faces: Vec<Face>,
-    meshes: Vec<PendingMesh>,
-    literals: Vec<PendingLiteral>,
-    leaves: Vec<Leaf>,
+    pub faces: Vec<Face>,
+    pub meshes: Vec<PendingMesh>,
+    pub copies: Vec<PendingCopy>,
+    pub literals: Vec<PendingLiteral>,
+    pub leaves: Vec<Leaf>,
     whole: Draft,
     outer: Draft,
 }
 
 /// A literal whose surface is not known yet.
-struct PendingLiteral {
-    shape: Shape,
-    leaf: u32,
+pub(super) struct PendingLiteral {
+    pub shape: Shape,
+    pub leaf: u32,
 }
 
 #[derive(Clone, Copy)]
-enum Shape {
+pub(super) enum Shape {
     /// Index into [`Lowering::faces`].
     Face(u32),
     /// Index into [`Lowering::meshes`].
     Mesh(u32),
+    /// Index into [`Lowering::copies`].
+    Copy(u32),
 }
 
 /// A polyhedron to be made a mesh when its faces have surfaces.
-struct PendingMesh {
-    polyhedron: Arc<Polyhedron>,
-    map: Affine,
+pub(super) struct PendingMesh {
+    pub polyhedron: Arc<Polyhedron>,
+    pub map: Affine,
     /// Its faces with an area are those of [`Lowering::faces`] from here on.
-    first_face: usize,
+    pub first_face: usize,
 }
 
-impl PendingMesh {
-    fn build(&self, refs: &[SurfaceRef], tolerance: f64, surfaces: &mut Vec<Surface>) -> SurfaceRef {
-        let mut faces = refs[self.first_face..].iter().copied();
-        let mut next = |_: &MovedFace| faces.next().expect("the same faces have an area as before");
-        let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
-        let surface = surfaces.len() as u32;
-        surfaces.push(Surface::Mesh(Arc::new(mesh.expect("lowered only where a face has an area"))));
-        SurfaceRef { surface, flipped: false }
-    }
+/// One of many places of a solid.
+#[derive(Clone, Copy)]
+pub(super) struct PendingCopy {
+    pub kind: u32,
+    pub offset: Vec3,
+    pub bounds: Bounds,
+    pub first_leaf: u32,
 }
 
 impl Lowering {
-    /// Lowers a body.
-    fn program(&mut self, body: &Solid) -> Program {
-        let lowered = self.solid(body, &Affine::IDENTITY, None, false);
+    /// `snap` is the import tolerance relative to the size of everything bounded.
+    pub fn new(snap: f64) -> Self {
+        Self { snap, ..Self::default() }
+    }
+
+    /// Lowers a body, moved by `map`.
+    pub fn program_of(&mut self, body: &Solid, map: &Affine) -> Program {
+        let lowered = self.solid(body, map, None, false);
+        self.finish(lowered)
+    }
+
+    /// Lowers a body that is the union of those operands; of what has copies, only where they are.
+    pub fn program_of_union(&mut self, operands: &[Operand], kinds: &[Kind]) -> Program {
+        let (mut whole, mut outer) = (self.whole.open(Op::Or), self.outer.open(Op::Or));
+        let (mut bounds, mut bounded) = (Bounds::EMPTY, Bounds::EMPTY);
+        for operand in operands {
+            let lowered = match operand.kind {
+                None => self.solid(operand.solid, &operand.map, operand.part, false),
+                Some(kind) => self.copy(operand, kind, &kinds[kind as usize]),
+            };
+            whole.add(lowered.whole);
+            outer.add(lowered.outer);
+            bounds = bounds.union(lowered.bounds);
+            bounded = bounded.union(lowered.bounded);
+        }
+        let whole = self.whole.close(whole);
+        let outer = match bounds.is_bounded() {
+            true => self.outer.close_as(outer, false),
+            false => self.outer.close(outer),
+        };
+        self.finish(Lowered { whole, outer, bounds, bounded })
+    }
+
+    fn finish(&mut self, lowered: Lowered) -> Program {
         let whole = self.whole.finish(lowered.whole);
         Program { whole, outer: self.outer.finish(lowered.outer), bounds: lowered.bounded }
+    }
+
+    /// One of many places of a solid: a literal.
+    fn copy(&mut self, operand: &Operand, kind: u32, solid: &Kind) -> Lowered {
+        let leaf = self.leaves.len() as u32;
+        // Inner parts win.
+        self.leaves.extend(solid.lowering.leaves.iter().map(|leaf| Leaf { part: leaf.part.or(operand.part) }));
+        let offset = operand.map.translation;
+        let bounds = moved(&solid.program.bounds, offset);
+        let index = self.literals.len() as u32;
+        self.literals.push(PendingLiteral { shape: Shape::Copy(self.copies.len() as u32), leaf });
+        self.copies.push(PendingCopy { kind, offset, bounds, first_leaf: leaf });
+        let whole = self.whole.literal(index, false);
+        Lowered { whole, outer: Value::Constant(false), bounds, bounded: bounds }
     }
 
     /// Lowers a solid; `negated` asks for its complement.
@@ -248,7 +248,7 @@ impl Lowering {
 
 /// A box around the primitive as its surfaces have it, which know the inverse only. Of a map that squashes space at an
 /// angle the inverse is imprecise: what that does to the primitive's points, moved there and back, comes on top.
-fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bounds {
+pub(super) fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bounds {
     let bounds = primitive.bounds(map);
     let local = primitive.bounds(&Affine::IDENTITY);
     if !local.is_bounded() {

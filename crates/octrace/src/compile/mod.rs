@@ -1,5 +1,9 @@
 //! From the CSG tree to a program: what is evaluated along rays and simplified in cells.
 
+mod assemble;
+mod census;
+mod clear;
+mod copies;
 mod draft;
 mod face;
 mod intern;
@@ -7,16 +11,19 @@ mod items;
 mod known;
 mod lower;
 mod place;
+mod prototype;
 mod repeats;
 mod simplify;
 mod split;
 mod text;
 mod words;
 
+pub use assemble::{Compiled, compile};
+pub use copies::Copies;
 pub(crate) use draft::Op;
 pub use intern::CompileReport;
 pub use items::{Items, Lattice, LatticeCell};
-pub use lower::{Compiled, compile};
+pub use prototype::{Prototype, Use};
 pub use repeats::without_repeats;
 pub use simplify::{Simplified, Simplifier};
 pub use split::{Boxes, Entry, Split, Splitter};
@@ -52,6 +59,8 @@ pub struct Catalog {
     pub literals: Vec<Literal>,
     /// Primitives, in source order.
     pub leaves: Vec<Leaf>,
+    /// Solids that stand in many places.
+    pub prototypes: Vec<Prototype>,
 }
 
 /// The program of one body.

@@ -137,7 +137,7 @@ fn mix(mut bits: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Constant, compile, program_text};
+    use super::super::{Constant, Copies, compile, program_text};
     use super::*;
     use crate::model::Solid;
 
@@ -147,7 +147,7 @@ mod tests {
 
     /// The program of the solid without repeats, as text.
     fn left_of(solid: Solid) -> String {
-        let compiled = compile(&[solid], 0.0);
+        let compiled = compile(&[solid], 0.0, Copies::Apart);
         let Constant::Words(words) = &compiled.bodies[0].whole else { panic!("a program") };
         let kept = without_repeats(&compiled.catalog, words);
         program_text(&compiled.catalog, &Constant::Words(kept.into()))

@@ -1,7 +1,8 @@
 //! Simplifying a program in one box: [`Splitter`] for those who ask box by box.
 
-use super::{Boxes, Catalog, Entry, Splitter};
-use crate::surface::{CellBox, Octants};
+use super::{Boxes, Catalog, Constant, Entry, Splitter, Word};
+use crate::surface::{CellBox, Octants, Placed, Surface};
+use std::ops::Range;
 
 /// What is left of a program in a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +13,7 @@ pub enum Simplified {
     Reduced,
 }
 
-/// Simplifies programs; keeps its scratch memory between calls.
+/// Simplifies programs, those of copies too where nothing else is left; keeps its scratch memory between calls.
 #[derive(Debug, Default)]
 pub struct Simplifier {
     splitter: Splitter,
@@ -26,13 +27,31 @@ impl Simplifier {
         self.stack.clear();
         self.stack.extend(words.iter().map(|&word| Entry::new(catalog, word)));
         let boxes = Boxes { octants: Octants::all(cell), items: None };
-        let split = self.splitter.split(catalog, &mut self.stack, 0..words.len(), &boxes, 1);
+        let mut split = self.splitter.split(catalog, &mut self.stack, 0..words.len(), &boxes, 1);
+        if let (None, Some(placed)) = (split.constant(0), self.only_copy(catalog, &split.ranges[0])) {
+            let prototype = catalog.prototype(placed);
+            if let Constant::Words(words) = &prototype.program.whole {
+                let shift = prototype.literal_shift(placed.copy);
+                self.stack.clear();
+                self.stack.extend(words.iter().map(|&word| Entry::new(catalog, Word::shifted(word, shift))));
+                split = self.splitter.split(catalog, &mut self.stack, 0..words.len(), &boxes, 1);
+            }
+        }
         match split.constant(0) {
             Some(inside) => Simplified::Constant(inside),
             None => {
                 out.extend(self.stack[split.ranges[0].clone()].iter().map(|entry| entry.word));
                 Simplified::Reduced
             }
+        }
+    }
+
+    /// The copy of a solid that a program is.
+    fn only_copy<'a>(&self, catalog: &'a Catalog, program: &Range<usize>) -> Option<&'a Placed> {
+        let [entry] = self.stack.get(program.clone())? else { return None };
+        match catalog.surfaces.get(entry.surface as usize)? {
+            Surface::Placed(placed) => Some(placed),
+            _ => None,
         }
     }
 }

@@ -20,7 +20,7 @@ use std::ops::Range;
 pub struct Entry {
     /// See [`Word`].
     pub word: u32,
-    /// Index into [`Catalog::surfaces`]; no matter what for operators.
+    /// See [`Catalog::surface`]; no matter what for operators.
     pub surface: u32,
 }
 
@@ -28,7 +28,7 @@ impl Entry {
     /// The word with its surface.
     pub fn new(catalog: &Catalog, word: u32) -> Self {
         let surface = match Word::decode(word) {
-            Word::Literal { index, .. } => catalog.literals[index as usize].surface,
+            Word::Literal { index, .. } => catalog.surface_number(index),
             Word::And { .. } | Word::Or { .. } => 0,
         };
         Self { word, surface }
@@ -183,10 +183,13 @@ impl Splitter {
                 Some((items, cell)) if entry.is_item() => OctantSides { inside: 0, outside: items.missed(entry, cell) },
                 _ => {
                     self.classified += classified;
-                    let surface = &catalog.surfaces[entry.surface as usize];
-                    let mut sides = match all {
-                        1 => OctantSides::all(surface.classify(&first)),
-                        _ => surface.classify_octants(&boxes.octants),
+                    let mut sides = match catalog.surfaces.get(entry.surface as usize) {
+                        Some(surface) if all == 1 => OctantSides::all(surface.classify(&first)),
+                        Some(surface) => surface.classify_octants(&boxes.octants),
+                        None => {
+                            let (surface, offset) = catalog.surface(entry.surface);
+                            surface.classify_octants(&boxes.octants.seen_from(offset))
+                        }
                     };
                     self.known.decide(entry.surface, &mut sides);
                     sides

@@ -1,7 +1,7 @@
 //! Programs for people to read.
 
 use super::{Catalog, Constant, Word};
-use crate::surface::Surface;
+use crate::surface::{Placed, Surface};
 use std::fmt::Write;
 
 /// Nodes deeper than this are not indented any further, but numbered: else the text of a deep program would grow as the
@@ -34,10 +34,10 @@ pub fn program_text(catalog: &Catalog, program: &Constant) -> String {
                 "or".to_string()
             }
             Word::Literal { index, negated } => {
-                let literal = catalog.literals[index as usize];
+                let literal = catalog.literal(index);
                 let sign = if negated { "outside" } else { "inside" };
-                let surface = surface_text(&catalog.surfaces[literal.surface as usize]);
-                format!("{sign} s{} ({surface}), leaf {}", literal.surface, literal.leaf)
+                let surface = surface_text(literal.surface);
+                format!("{sign} s{} ({surface}), leaf {}", literal.stored + literal.surface_shift, literal.leaf)
             }
         };
         let _ = writeln!(text, "{:indent$}{number}{line}", "");
@@ -52,6 +52,10 @@ fn surface_text(surface: &Surface) -> String {
         }
         Surface::Mesh(m) => format!("mesh of {} triangles", m.triangle_count()),
         Surface::Quadric(q) => format!("{:?}", q.kind).to_lowercase(),
+        Surface::Placed(p) => {
+            let Placed { prototype, offset, .. } = p;
+            format!("solid {prototype} at {:.6} {:.6} {:.6}", offset.x, offset.y, offset.z)
+        }
         Surface::Torus(t) => format!("torus of minor radius {:.6}", t.minor),
     }
 }

@@ -48,6 +48,15 @@ impl Word {
         }
     }
 
+    /// A word whose literal's number is greater by `by`.
+    #[inline]
+    pub(crate) fn shifted(word: u32, by: u32) -> u32 {
+        match Self::decode(word) {
+            Self::Literal { .. } => word + by,
+            Self::And { .. } | Self::Or { .. } => word,
+        }
+    }
+
     /// Encodes a word.
     #[inline]
     pub fn encode(self) -> u32 {

@@ -3,7 +3,9 @@
 use super::subtree::Subtree;
 use super::worker::{Place, Reduced, Worker};
 use super::{CellWord, Octree};
-use crate::compile::{Boxes, Catalog, Constant, Entry, Items, Lattice, LatticeCell, Program, without_repeats};
+use crate::compile::{
+    Boxes, Catalog, Constant, Entry, Items, Lattice, LatticeCell, Program, node_end, without_repeats,
+};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::Vec3;
 use crate::surface::Octants;
@@ -68,6 +70,7 @@ pub fn build(
         root: CellWord::OUTSIDE,
         branches: Vec::new(),
         programs: Vec::new(),
+        has_mixed_leaves: false,
         depth: 0,
         surfaces_classified: 0,
     };
@@ -109,7 +112,21 @@ pub fn build(
     octree.branches = tree.branches;
     octree.programs = tree.programs;
     octree.depth = tree.depth;
+    octree.has_mixed_leaves = has_mixed_leaves(catalog, &octree.programs);
     Ok(Some(octree))
+}
+
+/// Whether a whole solid is but a part of one of the programs, which follow each other.
+fn has_mixed_leaves(catalog: &Catalog, programs: &[u32]) -> bool {
+    let mut at = 0;
+    while at < programs.len() && !catalog.prototypes.is_empty() {
+        let end = node_end(programs, at);
+        if end > at + 1 && programs[at..end].iter().any(|&word| catalog.placed_by(word).is_some()) {
+            return true;
+        }
+        at = end;
+    }
+    false
 }
 
 /// The number rounded up to eleven binary digits. With few digits in the root's place and size, the planes of all cells are

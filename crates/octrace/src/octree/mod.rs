@@ -81,6 +81,8 @@ pub struct Octree {
     pub(crate) root: CellWord,
     pub(crate) branches: Vec<[CellWord; 8]>,
     pub(crate) programs: Vec<u32>,
+    /// Whether some leaf holds a whole solid ([`Surface::Placed`](crate::surface::Surface)) and something else.
+    pub(crate) has_mixed_leaves: bool,
     depth: u32,
     surfaces_classified: u64,
 }

@@ -115,9 +115,10 @@ impl Worker {
         if reduced.with_items {
             reduced.range = builder.items.open_for_cell(&mut self.stack, reduced.range.clone(), &place.on_lattice);
         }
+        let is_mixed = self.is_mixed(builder, reduced.range.clone());
         let is_leaf = place.level >= builder.depth
             || cost_of_cutting(reduced.words) > budget
-            || self.surfaces_at_most(builder, reduced.range.clone());
+            || !is_mixed && self.surfaces_at_most(builder, reduced.range.clone());
         if !is_leaf {
             builder.exec.cancel.check()?;
             let boxes = Boxes {
@@ -126,7 +127,7 @@ impl Worker {
             };
             let top = self.stack.len();
             let split = self.splitter.split(builder.catalog, &mut self.stack, reduced.range.clone(), &boxes, u8::MAX);
-            if builder.pays(reduced.words, split.words) {
+            if is_mixed || builder.pays(reduced.words, split.words) {
                 return Ok(Some(split));
             }
             self.stack.truncate(top);
@@ -135,6 +136,15 @@ impl Worker {
             reduced.range = builder.items.open_all(&mut self.stack, reduced.range.clone());
         }
         Ok(None)
+    }
+
+    /// Whether a whole solid is but a part of a program. Cells are cut until it is all that there is.
+    fn is_mixed(&self, builder: &Builder, program: Range<usize>) -> bool {
+        if builder.catalog.prototypes.is_empty() || program.len() == 1 {
+            return false;
+        }
+        let mut entries = self.stack[program].iter().flat_map(|item| builder.items.meaning(item));
+        entries.any(|entry| builder.catalog.placed_by(entry.word).is_some())
     }
 
     /// Whether a program has no more different surfaces than a leaf may.

@@ -4,6 +4,7 @@ mod bvh;
 mod mesh;
 mod polyhedron;
 
+pub(crate) use bvh::Bvh;
 pub use mesh::{Crossing, Mesh, MovedFace, SurfaceRef};
 pub use polyhedron::{FacePlane, Polyhedron, PolyhedronError, Triangle};
 

@@ -12,6 +12,7 @@ impl Surface {
             Self::Quadric(quadric) => (quadric.extent(), Bounds::ALL),
             Self::Torus(torus) => (torus.extent(), Bounds::ALL),
             Self::Mesh(_) => (Bounds::ALL, Bounds::ALL),
+            Self::Placed(placed) => (placed.bounds, Bounds::ALL),
         }
     }
 }

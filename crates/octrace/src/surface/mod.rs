@@ -7,6 +7,7 @@
 mod crossings;
 mod extent;
 mod octants;
+mod placed;
 mod plane;
 mod quadric;
 mod torus;
@@ -14,6 +15,7 @@ mod torus;
 pub use crossings::{Crossings, Sides};
 pub(crate) use octants::halves;
 pub use octants::{OctantSides, Octants};
+pub use placed::Placed;
 pub use plane::Plane;
 pub use quadric::{Quadric, QuadricKind};
 pub use torus::Torus;
@@ -79,11 +81,14 @@ pub enum Surface {
     Torus(Torus),
     /// The boundary of a polyhedron that is not convex. Its faces lie in planes that are surfaces too.
     Mesh(Arc<Mesh>),
+    /// A whole solid that is stored once and stands in several places.
+    Placed(Placed),
 }
 
 impl Surface {
     /// Where the line of the ray crosses the surface, over all `t` from minus to plus infinity: appends the ascending
     /// parameters and returns whether the line comes from inside. `all` is the catalogue that the surface belongs to.
+    /// (Those of a solid that is stored once are for the tracer to find, who has its program.)
     pub fn crossings(&self, all: &[Surface], ray: &Ray, params: &mut Vec<f64>) -> bool {
         let crossings = match self {
             Self::Plane(plane) => plane.crossings(ray),
@@ -93,6 +98,7 @@ impl Surface {
                 params.extend(mesh_toggles(mesh, all, ray).iter().map(|toggle| toggle.t));
                 return false;
             }
+            Self::Placed(_) => return false,
         };
         params.extend_from_slice(crossings.params());
         crossings.starts_inside()
@@ -105,6 +111,7 @@ impl Surface {
             Self::Plane(plane) => plane.classify(cell),
             Self::Quadric(quadric) => quadric.classify(cell),
             Self::Torus(torus) => torus.classify(cell),
+            Self::Placed(placed) => placed.classify(cell),
             Self::Mesh(mesh) => {
                 if mesh.touches_box(cell.center, cell.half) {
                     Side::Crossing
@@ -121,7 +128,7 @@ impl Surface {
     /// or out of it; and whether that surface's outward side is this one's inside.
     pub fn facet_at(&self, own: u32, all: &[Surface], ray: &Ray, t: f64, entering: bool) -> (u32, bool) {
         match self {
-            Self::Plane(_) | Self::Quadric(_) | Self::Torus(_) => (own, false),
+            Self::Plane(_) | Self::Quadric(_) | Self::Torus(_) | Self::Placed(_) => (own, false),
             Self::Mesh(mesh) => {
                 let toggles = mesh_toggles(mesh, all, ray);
                 let seen = toggles.iter().find(|toggle| toggle.t == t && toggle.entering == entering);
@@ -142,23 +149,23 @@ impl Surface {
     }
 
     /// The outward normal at a point of a simple surface, not normalised; zero at a cone's apex, where a torus closes
-    /// in one point, and for a mesh, whose faces' planes are asked instead.
+    /// in one point, and for a mesh or a whole solid, whose faces' surfaces are asked instead.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
         match self {
             Self::Plane(plane) => plane.normal,
             Self::Quadric(quadric) => quadric.gradient(p),
             Self::Torus(torus) => torus.gradient(p),
-            Self::Mesh(_) => Vec3::ZERO,
+            Self::Mesh(_) | Self::Placed(_) => Vec3::ZERO,
         }
     }
 
-    /// Roughly the distance of `p` from a simple surface (first order), in scene units; infinite for a mesh.
+    /// Roughly the distance of `p` from a simple surface (first order), in scene units; infinite for a mesh or a whole solid.
     pub fn distance(&self, p: Vec3) -> f64 {
         match self {
             Self::Plane(plane) => (plane.normal.dot(p) - plane.offset).abs(),
             Self::Quadric(quadric) => quadric.distance(p),
             Self::Torus(torus) => torus.distance(p),
-            Self::Mesh(_) => f64::INFINITY,
+            Self::Mesh(_) | Self::Placed(_) => f64::INFINITY,
         }
     }
 }

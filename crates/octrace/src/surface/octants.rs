@@ -57,6 +57,18 @@ impl Octants {
         Self { low: cell.center, high: cell.center, half: cell.half, rounding: cell.rounding }
     }
 
+    /// The boxes as they lie from a place that is moved by `by`.
+    pub(crate) fn seen_from(&self, by: Vec3) -> Self {
+        Self { low: self.low - by, high: self.high - by, ..*self }
+    }
+
+    /// From where to where the boxes in the low place along an axis reach, and those in the high place.
+    #[inline(always)]
+    pub(super) fn extents(&self, axis: usize) -> ((f64, f64), (f64, f64)) {
+        let extent = |middle: f64| (middle - self.half[axis], middle + self.half[axis]);
+        (extent(self.low[axis]), extent(self.high[axis]))
+    }
+
     /// One of the boxes.
     pub fn cell(&self, octant: usize) -> CellBox {
         let side = |axis: usize| if octant >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] };
@@ -72,6 +84,7 @@ impl Surface {
             Self::Plane(plane) => plane.classify_octants(octants),
             Self::Quadric(quadric) => quadric.classify_octants(octants),
             Self::Torus(_) | Self::Mesh(_) => self.classify_one_by_one(octants),
+            Self::Placed(placed) => placed.classify_octants(octants),
         }
     }
 

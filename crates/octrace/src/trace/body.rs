@@ -3,6 +3,7 @@
 //! With an octree a ray marches through cells. Should two cells contradict each other (a *leak*, never seen in tests), the
 //! ray is traced canonically and counted: whoever asks gets the right answer in any case.
 
+use super::canonical::ends;
 use super::march::{March, Stop};
 use super::options::{Accel, TracerOptions};
 use super::prepared::Prepared;
@@ -14,6 +15,7 @@ use crate::octree::{Octree, build};
 use crate::surface::{CellBox, Side};
 use crate::traverse::{Step, Traversal, TraversalKind, root_interval};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 /// A compiled body. Rays come *prepared*, see [`super::prepared`].
 #[derive(Debug)]
@@ -24,12 +26,20 @@ pub(super) struct Body {
     accel: Accel,
     /// How deep the program is nested.
     nesting: usize,
+    /// The solids that stand in many places, as bodies of their own.
+    prototypes: Arc<[Body]>,
 }
 
 impl Body {
     /// # Errors
     /// If `exec` is cancelled.
-    pub fn build(program: Program, catalog: &Catalog, options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
+    pub fn build(
+        program: Program,
+        prototypes: &Arc<[Body]>,
+        catalog: &Catalog,
+        options: &TracerOptions,
+        exec: &Exec,
+    ) -> Result<Self, Cancelled> {
         let octree = match options.accel {
             Accel::None => None,
             Accel::Octree => exec.install(|| {
@@ -41,7 +51,12 @@ impl Body {
             })?,
         };
         let nesting = program.nesting();
-        Ok(Self { program, octree, accel: options.accel, nesting })
+        Ok(Self { program, octree, accel: options.accel, nesting, prototypes: Arc::clone(prototypes) })
+    }
+
+    /// The solids that stand in many places.
+    pub fn prototypes(&self) -> &[Body] {
+        &self.prototypes
     }
 
     /// Whether rays walk an octree in the usual way.
@@ -138,7 +153,7 @@ impl Body {
             }
             return ControlFlow::Continue(());
         }
-        let mut march = March::new(catalog, &ray.ray, scratch);
+        let mut march = March::new(catalog, &self.prototypes, &ray.ray, scratch);
         let stop = march.along(&self.program, self.octree_and_traversal(), (start, end), on_hit);
         if let ControlFlow::Break(Stop::Leak) = stop {
             scratch.counters.leaks += 1;
@@ -172,9 +187,4 @@ impl Body {
             Simplified::Reduced => Side::Crossing,
         }
     }
-}
-
-/// The ends of spans, in the order of the line.
-fn ends(spans: Spans) -> impl Iterator<Item = Hit> {
-    spans.into_iter().flat_map(|span| [span.enter, span.exit]).flatten()
 }

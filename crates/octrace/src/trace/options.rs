@@ -1,5 +1,6 @@
 //! How a tracer is built.
 
+use crate::compile::Copies;
 use crate::octree::BuildOptions;
 use crate::traverse::TraversalKind;
 use std::fmt;
@@ -41,7 +42,8 @@ impl fmt::Display for Accel {
     }
 }
 
-/// How a tracer is built. Of these only [`snap`](Self::snap) changes what is traced.
+/// How a tracer is built. Of these only [`snap`](Self::snap) changes what is traced, and [`copies`](Self::copies), by
+/// rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TracerOptions {
     /// Whether and how rays are accelerated.
@@ -52,4 +54,6 @@ pub struct TracerOptions {
     pub octree: BuildOptions,
     /// Import tolerance, relative to the size of everything bounded; see [`Scene::snap`](crate::model::Scene::snap).
     pub snap: f64,
+    /// Whether equal solids are stored once.
+    pub copies: Copies,
 }

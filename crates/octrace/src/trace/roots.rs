@@ -4,6 +4,7 @@
 //! no sorting: for a literal it is looked up, for `Or` it is the least of the children's, for `And` the least fixpoint of
 //! asking the children in turn. The answer is one of the roots, bit for bit the one that combining span lists finds.
 
+use super::canonical::{copy_spans, ends};
 use crate::compile::{Catalog, Word, node_end};
 use crate::geom::{Hit, Ray};
 use crate::surface::{Sides, Surface};
@@ -14,8 +15,8 @@ pub(crate) struct Roots {
     /// For every word of the program; operators have an empty row.
     rows: Vec<Row>,
     params: Vec<f64>,
-    /// Meshes that this ray has met already, and where it crosses them: a mesh reaches through many cells.
-    meshes: Vec<(u32, Vec<f64>)>,
+    /// Meshes and whole solids that this ray has met already, and where it crosses them: they reach through many cells.
+    wholes: Vec<(u32, Vec<f64>)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +38,7 @@ pub(crate) struct Change {
 impl Roots {
     /// Forgets what is known of the ray before.
     pub fn begin_ray(&mut self) {
-        self.meshes.clear();
+        self.wholes.clear();
     }
 
     /// Crosses the ray, the same as since [`begin_ray`](Self::begin_ray), with every literal of the program.
@@ -48,26 +49,31 @@ impl Roots {
             let start = self.params.len() as u32;
             let mut starts_inside = false;
             if let Word::Literal { index, negated } = Word::decode(word) {
-                let surface = catalog.literals[index as usize].surface;
-                starts_inside = negated ^ self.cross(catalog, surface, ray);
+                starts_inside = negated ^ self.cross(catalog, index, ray);
             }
             self.rows.push(Row { start, len: self.params.len() as u32 - start, starts_inside });
         }
     }
 
-    fn cross(&mut self, catalog: &Catalog, surface: u32, ray: &Ray) -> bool {
-        let shape = &catalog.surfaces[surface as usize];
-        if !matches!(shape, Surface::Mesh(_)) {
-            return shape.crossings(&catalog.surfaces, ray, &mut self.params);
+    fn cross(&mut self, catalog: &Catalog, literal: u32, ray: &Ray) -> bool {
+        let literal = catalog.literal(literal);
+        let (surface, ray) = (literal.stored + literal.surface_shift, &literal.ray(ray));
+        if !matches!(literal.surface, Surface::Mesh(_) | Surface::Placed(_)) {
+            return literal.surface.crossings(&catalog.surfaces, ray, &mut self.params);
         }
-        let known = self.meshes.iter().position(|&(mesh, _)| mesh == surface).unwrap_or_else(|| {
+        let known = self.wholes.iter().position(|&(known, _)| known == surface).unwrap_or_else(|| {
             let mut params = Vec::new();
-            shape.crossings(&catalog.surfaces, ray, &mut params);
-            self.meshes.push((surface, params));
-            self.meshes.len() - 1
+            match literal.surface {
+                Surface::Placed(placed) => {
+                    params.extend(ends(copy_spans(catalog, placed, ray)).map(|hit| hit.t));
+                }
+                _ => _ = literal.surface.crossings(&catalog.surfaces, ray, &mut params),
+            }
+            self.wholes.push((surface, params));
+            self.wholes.len() - 1
         });
-        self.params.extend_from_slice(&self.meshes[known].1);
-        // Meshes are bounded: every line comes from outside.
+        self.params.extend_from_slice(&self.wholes[known].1);
+        // What is bounded is met from outside.
         false
     }
 
@@ -173,13 +179,13 @@ pub(crate) fn hit_of(catalog: &Catalog, word: u32, ray: &Ray, t: f64, entering: 
     let Word::Literal { index, negated } = Word::decode(word) else {
         unreachable!("only literals are seen to change a program");
     };
-    let literal = catalog.literals[index as usize];
-    let (surface, turned) = catalog.surfaces[literal.surface as usize].facet_at(
-        literal.surface,
-        &catalog.surfaces,
-        ray,
-        t,
-        entering != negated,
-    );
+    let literal = catalog.literal(index);
+    if let Surface::Placed(placed) = literal.surface {
+        let seen = ends(copy_spans(catalog, placed, ray)).find(|hit| hit.t == t && hit.entering == entering);
+        return seen.expect("what the program meets is what its copy meets");
+    }
+    let (surface, turned) =
+        literal.surface.facet_at(literal.stored, &catalog.surfaces, &literal.ray(ray), t, entering != negated);
+    let surface = surface + literal.surface_shift;
     Hit { t, leaf: literal.leaf, surface, entering, flipped: negated != turned }
 }

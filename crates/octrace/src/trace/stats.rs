@@ -2,6 +2,7 @@
 
 use super::Tracer;
 use super::body::Body;
+use crate::compile::Prototype;
 use crate::octree::{Octree, OctreeStats};
 use std::ops::AddAssign;
 
@@ -32,23 +33,30 @@ pub struct TracerStats {
     pub bodies: usize,
     /// Primitives.
     pub primitives: usize,
-    /// Different surfaces.
+    /// Copies of solids that are stored once.
+    pub copies: usize,
+    /// Different surfaces; those of copies count once.
     pub surfaces: usize,
-    /// Uses of surfaces by primitives.
+    /// Uses of surfaces by primitives, those of copies too.
     pub literals: usize,
-    /// The octrees, summed up; the depth is that of the deepest.
+    /// The octrees, those of solids with copies too, summed up; the depth is that of the deepest.
     pub octree: Option<OctreeStats>,
 }
 
 impl Tracer {
     /// What the tracer is made of, in numbers.
     pub fn stats(&self) -> TracerStats {
-        let octrees = self.bodies.iter().filter_map(Body::octree).map(Octree::stats);
+        let prototypes = self.bodies.first().map_or(&[][..], Body::prototypes);
+        let octrees = self.bodies.iter().chain(prototypes).filter_map(Body::octree).map(Octree::stats);
+        let copies: u32 = self.catalog.prototypes.iter().map(|prototype| prototype.copies).sum();
+        let more_literals = |prototype: &Prototype| prototype.literals() * (prototype.copies as usize - 1);
+        let literals = self.catalog.literals.len() - copies as usize;
         TracerStats {
             bodies: self.bodies.len(),
             primitives: self.catalog.leaves.len(),
-            surfaces: self.catalog.surfaces.len(),
-            literals: self.catalog.literals.len(),
+            copies: copies as usize,
+            surfaces: self.catalog.surfaces.len() - copies as usize,
+            literals: literals + self.catalog.prototypes.iter().map(more_literals).sum::<usize>(),
             octree: octrees.reduce(OctreeStats::and),
         }
     }

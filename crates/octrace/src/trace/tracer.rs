@@ -14,6 +14,7 @@ use crate::model::{PartId, Solid};
 use crate::octree::Octree;
 use crate::surface::{CellBox, Side, Surface};
 use crate::traverse::Traversal;
+use std::sync::Arc;
 
 /// Scratch memory of a worker, and what it counted.
 #[derive(Debug, Default)]
@@ -44,7 +45,7 @@ pub struct SurfacePoint {
 pub struct Tracer {
     pub(super) catalog: Catalog,
     pub(super) bodies: Vec<Body>,
-    /// Whether all surfaces are planes and quadrics.
+    /// Whether all surfaces are planes and quadrics; those of solids that stand in many places too.
     pub(super) only_plain: bool,
     report: CompileReport,
     bounds: Bounds,
@@ -64,16 +65,22 @@ impl Tracer {
     /// # Errors
     /// If `exec` is cancelled.
     pub fn build_bodies(bodies: &[Solid], options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
-        let compiled = compile(bodies, options.snap);
+        let compiled = compile(bodies, options.snap, options.copies);
         let bounds = compiled.bodies.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounds));
         let catalog = compiled.catalog;
+        let none: Arc<[Body]> = Arc::new([]);
+        let prototypes = catalog
+            .prototypes
+            .iter()
+            .map(|prototype| Body::build(prototype.program.clone(), &none, &catalog, options, exec));
+        let prototypes = prototypes.collect::<Result<Arc<[Body]>, Cancelled>>()?;
         let bodies = compiled
             .bodies
             .into_iter()
-            .map(|program| Body::build(program, &catalog, options, exec))
+            .map(|program| Body::build(program, &prototypes, &catalog, options, exec))
             .collect::<Result<_, Cancelled>>()?;
-        let is_plain = |surface: &Surface| matches!(surface, Surface::Plane(_) | Surface::Quadric(_));
-        let only_plain = catalog.surfaces.iter().all(is_plain);
+        let only_plain =
+            !catalog.surfaces.iter().any(|surface| matches!(surface, Surface::Torus(_) | Surface::Mesh(_)));
         Ok(Self { catalog, bodies, only_plain, report: compiled.report, bounds })
     }
 
@@ -153,7 +160,8 @@ impl Tracer {
     /// Position, normal and part at a hit of this ray.
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let position = ray.at(hit.t);
-        let gradient = self.catalog.surfaces[hit.surface as usize].gradient(position);
+        let (surface, offset) = self.catalog.surface(hit.surface);
+        let gradient = surface.gradient(Ray { origin: ray.origin - offset, ..*ray }.at(hit.t));
         let normal = match gradient.normalized() {
             Some(normal) if hit.flipped => -normal,
             Some(normal) => normal,
@@ -210,8 +218,13 @@ impl Tracer {
         &self.report
     }
 
-    /// The program of each body for people to read.
+    /// The program of each body, and of each solid with copies, for people to read.
     pub fn program_text(&self) -> String {
-        self.bodies.iter().map(|body| program_text(&self.catalog, &body.program.whole)).collect()
+        let bodies = self.bodies.iter().map(|body| program_text(&self.catalog, &body.program.whole));
+        let solids = self.catalog.prototypes.iter().enumerate().map(|(number, prototype)| {
+            let copies = prototype.copies;
+            format!("solid {number}, {copies} copies\n{}", program_text(&self.catalog, &prototype.program.whole))
+        });
+        bodies.chain(solids).collect()
     }
 }

@@ -16,7 +16,7 @@ mod samet;
 mod tests;
 mod wyvill_kunii;
 
-use crate::geom::{Ray, Vec3};
+use crate::geom::{Bounds, Ray, Vec3};
 use crate::octree::{Cell, CellWord, Kind, Octree};
 use std::fmt;
 use std::ops::ControlFlow;
@@ -185,8 +185,12 @@ impl Traversal {
 
 /// The interval in which the ray is in the root cube; `None` where it misses it.
 pub fn root_interval(octree: &Octree, ray: &Ray) -> Option<(f64, f64)> {
+    interval(&octree.bounds(), ray)
+}
+
+/// The interval in which the ray is in a box; `None` where it misses it.
+pub(crate) fn interval(bounds: &Bounds, ray: &Ray) -> Option<(f64, f64)> {
     let (mut t_in, mut t_out) = (f64::NEG_INFINITY, f64::INFINITY);
-    let bounds = octree.bounds();
     for axis in 0..3 {
         let (o, d) = (ray.origin[axis], ray.direction[axis]);
         let (low, high) = (bounds.min[axis], bounds.max[axis]);

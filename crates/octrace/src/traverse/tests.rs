@@ -2,7 +2,7 @@
 
 use super::lattice::{for_each_leaf, geometry};
 use super::{Traversal, TraversalKind, bresenham, is_parallel, root_interval};
-use crate::compile::compile;
+use crate::compile::{Copies, compile};
 use crate::exec::Exec;
 use crate::geom::{Ray, Vec3};
 use crate::model::Solid;
@@ -74,7 +74,7 @@ fn walked(octree: &Octree, kind: TraversalKind, ray: &Ray, (t_in, t_out): (f64, 
 }
 
 fn octree_of(solid: &Solid, depth: u32) -> Option<Octree> {
-    let compiled = compile(std::slice::from_ref(solid), 0.0);
+    let compiled = compile(std::slice::from_ref(solid), 0.0, Copies::Apart);
     let options = BuildOptions { leaf_surfaces: 0, depth: Some(depth) };
     build(&compiled.catalog, &compiled.bodies[0], &options, BuildOptions::MAX_DEPTH, &Exec::with_threads(1))
         .expect("nobody cancels")

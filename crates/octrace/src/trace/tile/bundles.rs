@@ -9,6 +9,7 @@ use super::kernels::Cube;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
 use super::packet::Packet;
 use super::prune::{Boxes, Parts};
+use crate::geom::Vec3;
 
 /// Packets of a bundle.
 const TOGETHER: usize = PACKETS / LANES;
@@ -79,7 +80,7 @@ impl Bundles {
             self.inverse[axis] = Range::of::<I>(packets, |packet| &packet.inverse[axis]);
         }
         self.end = Range::of::<I>(packets, |packet| &packet.t).high;
-        let Passage { t_out, .. } = self.passage::<I>(signs, cube);
+        let Passage { t_out, .. } = self.passage::<I>(signs, cube, Vec3::ZERO);
         let (mut width, mut usual) = (F64s::<I>::zero(), t_out.is_finite());
         for axis in 0..3 {
             let extent = |range: &Range| F64s::<I>::load(&range.high) - F64s::load(&range.low);
@@ -97,37 +98,38 @@ impl Bundles {
         (F64s::<I>::load(&self.width) * F64s::splat(LEAST_CELL)).le(F64s::splat(half)).bits()
     }
 
-    /// Bounds of the parameters at which the bundles pass a plane across an axis.
+    /// Bounds of the parameters at which the bundles, seen from `from`, pass a plane across an axis.
     ///
     /// They are made by the operations that make the rays' own, which are monotonous: so they hold for what those come to,
     /// rounding included.
     #[inline(always)]
-    fn passes<I: Isa>(&self, axis: usize, negative: bool, plane: f64) -> (F64s<I>, F64s<I>) {
+    fn passes<I: Isa>(&self, axis: usize, negative: bool, plane: f64, from: Vec3) -> (F64s<I>, F64s<I>) {
         let load = |range: &Range| (F64s::<I>::load(&range.low), F64s::<I>::load(&range.high));
         let (low, high) = load(&self.inverse[axis]);
         let (least, greatest) = load(&self.origin[axis]);
+        let (least, greatest) = (least - F64s::splat(from[axis]), greatest - F64s::splat(from[axis]));
         let (first, last) = if negative { (least, greatest) } else { (greatest, least) };
         let (first, last) = (F64s::splat(plane) - first, F64s::splat(plane) - last);
         ((first * low).min(first * high), (last * low).max(last * high))
     }
 
-    /// How the bundles come through a cube.
+    /// How the bundles, seen from `from`, come through a cube.
     #[inline(always)]
-    pub fn passage<I: Isa>(&self, signs: usize, Cube { center, half }: Cube) -> Passage<I> {
+    pub fn passage<I: Isa>(&self, signs: usize, Cube { center, half }: Cube, from: Vec3) -> Passage<I> {
         let (mut t_in, mut t_out) = (F64s::zero(), F64s::load(&self.end));
         for axis in 0..3 {
             let negative = signs >> axis & 1 != 0;
             let (low, high) = (center[axis] - half, center[axis] + half);
             let (near, far) = if negative { (high, low) } else { (low, high) };
-            t_in = t_in.max(self.passes::<I>(axis, negative, near).0);
-            t_out = t_out.min(self.passes::<I>(axis, negative, far).1);
+            t_in = t_in.max(self.passes::<I>(axis, negative, near, from).0);
+            t_out = t_out.min(self.passes::<I>(axis, negative, far, from).1);
         }
         Passage { t_in, t_out, bundles: t_in.le(t_out).bits() }
     }
 
-    /// Where the bundles' rays are on that passage.
+    /// Where the bundles' rays are on that passage, seen from `from`.
     #[inline(always)]
-    pub fn parts<I: Isa>(&self, passage: &Passage<I>, margin: f64) -> Parts<I, Boxes<I>> {
+    pub fn parts<I: Isa>(&self, passage: &Passage<I>, margin: f64, from: Vec3) -> Parts<I, Boxes<I>> {
         let half = F64s::splat(0.5);
         let middle = |range: &Range| (F64s::<I>::load(&range.low) + F64s::load(&range.high)) * half;
         let extent = |range: &Range| (F64s::<I>::load(&range.high) - F64s::load(&range.low)) * half;
@@ -135,7 +137,7 @@ impl Bundles {
         let [u, v, w] = &self.direction;
         let reach = |origin: &Range, direction: &Range| extent(origin) + extent(direction) * passage.t_out;
         Parts {
-            origin: Vector::new(middle(x), middle(y), middle(z)),
+            origin: Vector::new(middle(x), middle(y), middle(z)).minus::<I>(from),
             direction: Vector::new(middle(u), middle(v), middle(w)),
             depth: (passage.t_in + passage.t_out) * half,
             half_depth: (passage.t_out - passage.t_in) * half,

@@ -97,7 +97,7 @@ pub(super) fn crossed_by<I: Isa, N: Number<I>>(surface: &Surface, rays: &Rays<I,
     match surface {
         Surface::Plane(surface) => plane(surface, rays),
         Surface::Quadric(surface) => quadric(surface, rays),
-        Surface::Torus(_) | Surface::Mesh(_) => Crossed::nowhere(),
+        Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => Crossed::nowhere(),
     }
 }
 

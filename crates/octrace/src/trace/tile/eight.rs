@@ -4,7 +4,7 @@
 use super::TileHit;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored};
 use super::packet::Packet;
-use crate::compile::{Catalog, Literal, Word};
+use crate::compile::{Catalog, Word};
 use crate::geom::{Hit, Ray, Vec3};
 use crate::surface::Surface;
 use crate::trace::roots::hit_of;
@@ -102,16 +102,16 @@ impl EightHits {
             let same = left & !I::differing(&packet.words, word);
             left &= !same;
             let Word::Literal { index, negated } = Word::decode(word) else { continue };
-            let Literal { surface, leaf } = catalog.literals[index as usize];
-            if let Surface::Mesh(_) = catalog.surfaces[surface as usize] {
+            let literal = catalog.literal(index);
+            if let Surface::Mesh(_) | Surface::Placed(_) = literal.surface {
                 self.take_facets(catalog, rays, packet, word, same);
                 continue;
             }
             let mask = Mask::<I>::from_bits(same);
             self.t = mask.select(F64s::load(&packet.t), F64s::load(&self.t)).stored();
             self.bodies = mask.select_words(packet.bodies, self.bodies);
-            self.surfaces = mask.select_words([surface; LANES], self.surfaces);
-            self.leaves = mask.select_words([leaf; LANES], self.leaves);
+            self.surfaces = mask.select_words([literal.stored + literal.surface_shift; LANES], self.surfaces);
+            self.leaves = mask.select_words([literal.leaf; LANES], self.leaves);
             self.met |= same;
             self.entering = self.entering & !same | packet.entering & same;
             self.flipped = if negated { self.flipped | same } else { self.flipped & !same };

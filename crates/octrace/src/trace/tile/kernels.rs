@@ -27,7 +27,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     #[inline(always)]
     pub(super) fn crossing(&self, number: usize, cube: Cube, (near, far): (f64, f64)) -> (Mask<I>, Stretch<I>) {
         let packet = &self.packets[number];
-        let mut stretch = self.stretch(packet, cube.center, cube.half);
+        let half = Vec3::splat(cube.half);
+        let mut stretch = self.stretch(packet, (cube.center - half, cube.center + half));
         let per_depth = F64s::load(&packet.per_depth);
         // Where two slabs meet, both have the same number.
         stretch.t_in = stretch.t_in.max(F64s::splat(near) * per_depth);
@@ -35,16 +36,15 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         (Mask::from_bits(packet.open) & stretch.t_in.le(stretch.t_out), stretch)
     }
 
-    /// The rays' stretches of a cube.
+    /// The rays' stretches of a box, given by its lowest and its highest corner.
     #[inline(always)]
-    pub(super) fn stretch(&self, packet: &Packet, center: Vec3, half: f64) -> Stretch<I> {
-        let origin = O::of(packet, self.beam.eye);
+    pub(super) fn stretch(&self, packet: &Packet, (low, high): (Vec3, Vec3)) -> Stretch<I> {
+        let origin = O::of(packet, self.beam.eye, self.scenery.offset);
         let (mut t_in, mut t_out) = (F64s::zero(), F64s::infinity());
-        let axes = [(origin.x, 0, center.x), (origin.y, 1, center.y), (origin.z, 2, center.z)];
-        for (origin, axis, center) in axes {
+        for (origin, axis) in [(origin.x, 0), (origin.y, 1), (origin.z, 2)] {
             let inverse = F64s::<I>::load(&packet.inverse[axis]);
-            let low = (O::Number::from_one(center - half) - origin).lanes() * inverse;
-            let high = (O::Number::from_one(center + half) - origin).lanes() * inverse;
+            let low = (O::Number::from_one(low[axis]) - origin).lanes() * inverse;
+            let high = (O::Number::from_one(high[axis]) - origin).lanes() * inverse;
             let forward = inverse.gt(F64s::zero());
             // A ray in one of the planes has no number there, and no bound.
             t_in = t_in.max(forward.select(low, high));
@@ -58,7 +58,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     pub(super) fn single(&mut self, word: u32, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
         self.scratch.counters.surface_tests += u64::from(here.bits().count_ones());
         let wanted = self.scenery.wanted;
-        let crossed = crossed(self.scenery.catalog, word, &self.packets[number].rays::<I, O>(self.beam.eye));
+        let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);
+        let crossed = crossed(self.scenery.catalog, word, &rays);
         let starts_wanted = crossed.starts_inside ^ Mask::splat(!wanted);
         // Two crossings at one place cancel each other.
         let (a, b) = (crossed.a, crossed.b);
@@ -69,7 +70,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let beyond = starts_wanted & !(two_sides & a.le(t_in) & t_in.le(b));
         let leaked = here & (between | beyond);
         let found = here & !leaked & two_sides & turn.ge(t_in) & turn.le(t_out) & turn.lt(F64s::infinity());
-        self.packets[number].meet::<I>(found, turn, [word; LANES], self.scenery);
+        self.packets[number].meet::<I>(found, turn, [word; LANES], &self.scenery);
         if leaked.any() {
             self.packets[number].leak(leaked, t_in);
         }
@@ -78,9 +79,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Stretches of some packets with a plain program.
     #[inline(always)]
     pub(super) fn program(&mut self, words: &[u32], chunk: &Chunk) {
-        let (wanted, eye) = (self.scenery.wanted, self.beam.eye);
+        let (wanted, eye, offset) = (self.scenery.wanted, self.beam.eye, self.scenery.offset);
         let packets = &*self.packets;
-        let rays = |slot: usize| packets[chunk.numbers[slot] as usize].rays::<I, O>(eye);
+        let rays = |slot: usize| packets[chunk.numbers[slot] as usize].rays::<I, O>(eye, offset);
         self.solved.solve(self.scenery.catalog, words, chunk.count, rays);
         for slot in 0..chunk.count {
             let here = Mask::from_bits(chunk.here[slot]);
@@ -99,7 +100,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 let changes = solved.changes::<I>(t);
                 let arrived = pending & (changes.after ^ Mask::splat(!wanted));
                 let turned = changes.before ^ changes.after;
-                packet.meet::<I>(arrived & turned, t, changes.words, self.scenery);
+                packet.meet::<I>(arrived & turned, t, changes.words, &self.scenery);
                 let leaked = arrived & !turned;
                 if leaked.any() {
                     packet.leak(leaked, t_in);
@@ -116,10 +117,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     #[inline(always)]
     fn one_by_one(&mut self, words: &[u32], number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
         let (t_in, t_out) = (t_in.stored(), t_out.stored());
-        let rays = self.packets[number].rays::<I, O>(self.beam.eye);
+        let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);
         let origin = rays.origin.map(|v| v.lanes().stored());
         let packet = &mut self.packets[number];
-        packet.one_by_one(self.scenery, words, here.bits(), (&origin, &t_in, &t_out), self.scratch);
+        packet.one_by_one(&self.scenery, words, here.bits(), (&origin, &t_in, &t_out), self.scratch);
     }
 }
 

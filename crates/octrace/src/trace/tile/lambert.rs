@@ -5,9 +5,8 @@ use super::crossing::{Rays, crossed_by, point};
 use super::dispatch::Task;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
 use super::packet::{Common, Origins, Own, Packet};
-use super::program::surface_of;
 use super::{ACROSS, PACKET_PX, PACKETS, RayTile, TILE_PX, Tiles, lane_of};
-use crate::compile::{Catalog, Word};
+use crate::compile::{Catalog, Use, Word};
 use crate::geom::Vec3;
 use crate::model::CameraRays;
 use crate::surface::Surface;
@@ -62,7 +61,7 @@ impl Tiles<'_> {
             let (packet, lane) = lane_of(x, y);
             let given_up = tile.packets[packet].given_up >> lane & 1 != 0;
             let hit = self.hit(tile, (x, y)).map(|(_, hit)| hit);
-            let surface = hit.map(|hit| &self.tracer.catalog.surfaces[hit.surface as usize]);
+            let surface = hit.map(|hit| self.tracer.catalog.surface(hit.surface).0);
             if given_up || matches!(surface, Some(Surface::Torus(_) | Surface::Mesh(_))) {
                 let ray = tile.ray(packet, lane);
                 *pixel = hit.map_or(Brightness::BACKGROUND, |hit| {
@@ -172,7 +171,6 @@ fn shaded<I: Isa, O: Origins<I>>(
     light: Vec3,
     known: bool,
 ) -> F64s<I> {
-    let rays: Rays<I, O::Number> = packet.rays::<I, O>(eye);
     let mut value = F64s::splat(f64::from(Brightness::BACKGROUND));
     let mut left = seen.met;
     while left != 0 {
@@ -180,23 +178,21 @@ fn shaded<I: Isa, O: Origins<I>>(
         let word = seen.words[left.trailing_zeros() as usize & (LANES - 1)];
         let same = left & !I::differing(seen.words, word);
         left &= !same;
-        let Some(surface) = surface_of(catalog, word) else { continue };
+        let Word::Literal { index, negated } = Word::decode(word) else { continue };
+        let Use { surface, offset, .. } = catalog.literal(index);
+        let rays: Rays<I, O::Number> = packet.rays::<I, O>(eye, offset);
         let t = match known {
             true => F64s::load(&packet.t),
             false => {
                 let crossed = crossed_by::<I, O::Number>(surface, &rays);
                 // Into the surface, or out of it.
-                let entering = Mask::from_bits(seen.entering) ^ Mask::splat(is_negated(word));
+                let entering = Mask::from_bits(seen.entering) ^ Mask::splat(negated);
                 (entering ^ crossed.starts_inside).select(crossed.a, crossed.b)
             }
         };
         value = Mask::from_bits(same).select(cosine(surface, &rays, t, light), value);
     }
     value
-}
-
-fn is_negated(word: u32) -> bool {
-    matches!(Word::decode(word), Word::Literal { negated: true, .. })
 }
 
 /// The cosine to the light where rays meet a surface, of the side that they see.
@@ -219,7 +215,7 @@ fn cosine<I: Isa, N: Number<I>>(surface: &Surface, rays: &Rays<I, N>, t: F64s<I>
             (gradient.dot(one(light)) / length, gradient.dot(d))
         }
         // Scalar code shades those lanes.
-        Surface::Torus(_) | Surface::Mesh(_) => (F64s::zero(), F64s::zero()),
+        Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (F64s::zero(), F64s::zero()),
     };
     let cosine = along_ray.gt(F64s::zero()).select(-to_light, to_light);
     cosine.max(F64s::zero())

@@ -52,8 +52,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             self.evaluate(words, packets, cube, (0.0, f64::INFINITY));
             return;
         }
-        let margin = self.scenery.octree.margin;
-        let (near, far) = self.beam.depths(center, half + margin);
+        let (margin, offset) = (self.scenery.octree.margin, self.scenery.offset);
+        let (near, far) = self.beam.depths(center + offset, half + margin);
         self.slabs[0] = Slab { words: Pruned::new(words), near, far, parts: u8::MAX, cuts: 0 };
         let mut count = 1;
         while count > 0 {
@@ -67,7 +67,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             if parts == 0 {
                 continue;
             }
-            let region = Parts::<I, _>::of_beam(self.beam, (near, far), margin);
+            let region = Parts::<I, _>::of_beam(self.beam, (near, far), margin, offset);
             self.known.learn(self.scenery.catalog, words.words(), &region);
             let (always, never) = self.known.decided();
             let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
@@ -107,9 +107,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         if packets == 0 {
             return;
         }
-        let passage = self.bundles.passage::<I>(signs, cube);
+        let (margin, offset) = (self.scenery.octree.margin, self.scenery.offset);
+        let passage = self.bundles.passage::<I>(signs, cube, offset);
         let here = passage.bundles & bundles_of(packets);
-        self.known.learn(self.scenery.catalog, words, &self.bundles.parts(&passage, self.scenery.octree.margin));
+        self.known.learn(self.scenery.catalog, words, &self.bundles.parts(&passage, margin, offset));
         let (always, never) = self.known.decided();
         let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
         if leaked & !settled & here != 0 {

@@ -6,6 +6,7 @@
 
 mod beam;
 mod bundles;
+mod copy;
 mod crossing;
 mod dispatch;
 mod eight;
@@ -249,17 +250,10 @@ impl Task for TraceTile<'_, '_> {
                 packet.open = packet.wanted & !packet.given_up;
                 packet.started_there = 0;
             }
-            let scenery = Scenery {
-                catalog: &tiles.tracer.catalog,
-                program: &body.program,
-                octree,
-                wanted: tiles.start_outside[number],
-                body: number as u32,
-                only_plain: tiles.tracer.only_plain,
-            };
+            let scenery = Scenery::of(tiles.tracer, number, octree, tiles.start_outside[number]);
             match tiles.camera.orthographic {
-                true => walk::<I, Own>(&scenery, Lead::Beam, tile, scratch),
-                false => walk::<I, Common>(&scenery, Lead::Beam, tile, scratch),
+                true => walk::<I, Own>(scenery, Lead::Beam, tile, scratch),
+                false => walk::<I, Common>(scenery, Lead::Beam, tile, scratch),
             }
             for packet in &mut tile.packets {
                 // The camera is on one side of everything.

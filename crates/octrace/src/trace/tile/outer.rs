@@ -8,7 +8,7 @@ use super::program::{CHUNK, is_short};
 use super::prune::Parts;
 use super::walk::{Lead, Scenery, Walk};
 use crate::compile::Constant;
-use crate::octree::Octree;
+use crate::geom::Bounds;
 
 /// What is left of the program outside the octree's root.
 #[derive(Clone, Copy)]
@@ -37,11 +37,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// The stretches before the octree's root, of rays that come to it.
     #[inline(always)]
     pub(super) fn before(&mut self, lead: Lead) {
-        let Octree { center, half, margin, .. } = *self.scenery.octree;
+        let Bounds { min, max } = self.scenery.octree.bounds();
         let (mut packets, mut farthest) = (0, F64s::zero());
         for number in bits_of(self.open) {
             let packet = &self.packets[number];
-            let Stretch { t_in, t_out } = self.stretch(packet, center, half);
+            let Stretch { t_in, t_out } = self.stretch(packet, (min, max));
             let here = Mask::from_bits(packet.open) & t_in.le(t_out) & F64s::zero().lt(t_in);
             packets |= u32::from(here.any()) << number;
             farthest = here.select(farthest.max(t_in), farthest);
@@ -49,7 +49,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         if let (Left::Plain(words), Lead::Beam, true) = (self.scenery.left_outside(), lead, packets != 0) {
             // Rays are no shorter than they are deep.
             let farthest = farthest.stored().0.into_iter().fold(0.0, f64::max);
-            let parts = Parts::<I, _>::of_beam(self.beam, (0.0, farthest), margin);
+            let parts =
+                Parts::<I, _>::of_beam(self.beam, (0.0, farthest), self.scenery.octree.margin, self.scenery.offset);
             self.known.learn(self.scenery.catalog, words, &parts);
             let (always, never) = self.known.decided();
             packets &= !packets_of(if self.scenery.wanted { never } else { always });
@@ -70,7 +71,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Stretches outside the octree's root: what `stretch` makes of those inside.
     #[inline(always)]
     fn outer(&mut self, packets: u32, stretch: impl Fn(F64s<I>, F64s<I>, Mask<I>) -> (Mask<I>, Stretch<I>)) {
-        let Octree { center, half, .. } = *self.scenery.octree;
+        let Bounds { min, max } = self.scenery.octree.bounds();
         let words = match self.scenery.left_outside() {
             _ if packets == 0 => return,
             Left::Nothing => return,
@@ -80,7 +81,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let mut chunk = self.chunk.take().unwrap_or_default();
         chunk.count = 0;
         for number in bits_of(packets) {
-            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], center, half);
+            let Stretch { t_in, t_out } = self.stretch(&self.packets[number], (min, max));
             let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
             let here = rays & Mask::from_bits(self.packets[number].open);
             match words {

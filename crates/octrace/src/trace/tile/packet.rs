@@ -5,6 +5,7 @@ use super::eight::EightRays;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
 use super::walk::Scenery;
 use super::{ACROSS, PACKET_PX};
+use crate::compile::Word;
 use crate::geom::{Ray, Vec3};
 use crate::model::CameraRays;
 use crate::trace::Scratch;
@@ -12,7 +13,8 @@ use crate::trace::Scratch;
 /// How rays start: all from one point, or each from its own.
 pub(super) trait Origins<I: Isa> {
     type Number: Number<I>;
-    fn of(packet: &Packet, eye: Vec3) -> Vector<Self::Number>;
+    /// Where a packet's rays start, seen from `from`; `eye` is the one point.
+    fn of(packet: &Packet, eye: Vec3, from: Vec3) -> Vector<Self::Number>;
 }
 
 /// From one point.
@@ -25,7 +27,8 @@ impl<I: Isa> Origins<I> for Common {
     type Number = f64;
 
     #[inline(always)]
-    fn of(_packet: &Packet, eye: Vec3) -> Vector<f64> {
+    fn of(_packet: &Packet, eye: Vec3, from: Vec3) -> Vector<f64> {
+        let eye = eye - from;
         Vector::new(eye.x, eye.y, eye.z)
     }
 }
@@ -34,9 +37,9 @@ impl<I: Isa> Origins<I> for Own {
     type Number = F64s<I>;
 
     #[inline(always)]
-    fn of(packet: &Packet, _eye: Vec3) -> Vector<F64s<I>> {
+    fn of(packet: &Packet, _eye: Vec3, from: Vec3) -> Vector<F64s<I>> {
         let [x, y, z] = &packet.origin;
-        Vector::new(F64s::load(x), F64s::load(y), F64s::load(z))
+        Vector::<F64s<I>>::new(F64s::load(x), F64s::load(y), F64s::load(z)).minus(from)
     }
 }
 
@@ -65,6 +68,8 @@ pub(super) struct Packet {
     pub wanted: u8,
     /// Rays that have met nothing of the present body so far.
     pub open: u8,
+    /// Open rays that wait while others are in a copy of a solid.
+    pub aside: u8,
     /// Rays that have met something, and which of them enter it.
     pub met: u8,
     pub entering: u8,
@@ -117,11 +122,11 @@ impl Packet {
         self.given_up = 0;
     }
 
-    /// Its rays; `eye` is where they start if they start at one point.
+    /// Its rays, seen from `from`; `eye` is where they start if they start at one point.
     #[inline(always)]
-    pub fn rays<I: Isa, O: Origins<I>>(&self, eye: Vec3) -> Rays<I, O::Number> {
+    pub fn rays<I: Isa, O: Origins<I>>(&self, eye: Vec3, from: Vec3) -> Rays<I, O::Number> {
         let [x, y, z] = &self.direction;
-        Rays { origin: O::of(self, eye), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
+        Rays { origin: O::of(self, eye, from), direction: Vector::new(F64s::load(x), F64s::load(y), F64s::load(z)) }
     }
 
     /// Takes some of these rays.
@@ -163,6 +168,11 @@ impl Packet {
         let before = F64s::load(&self.t);
         let first = rays & t.lt(before);
         self.t = first.select(t, before).stored();
+        // Not a closure: those may be compiled by themselves.
+        let mut words = words;
+        for word in &mut words {
+            *word = word.wrapping_add(scenery.literal_shift);
+        }
         self.words = first.select_words(words, self.words);
         self.bodies = first.select_words([scenery.body; LANES], self.bodies);
         self.note(first.bits(), scenery.wanted);
@@ -230,7 +240,8 @@ impl Packet {
             match change.word {
                 Some(word) if change.after == scenery.wanted => {
                     if t < self.t.0[lane] {
-                        (self.t.0[lane], self.words[lane], self.bodies[lane]) = (t, word, scenery.body);
+                        (self.t.0[lane], self.words[lane], self.bodies[lane]) =
+                            (t, Word::shifted(word, scenery.literal_shift), scenery.body);
                         self.note(bit, scenery.wanted);
                     }
                     self.open &= !bit;

@@ -25,16 +25,17 @@ pub(crate) fn points<I: Isa>(
         let surface = hits.surfaces[left.trailing_zeros() as usize & (LANES - 1)];
         let same = left & !I::differing(&hits.surfaces, surface);
         left &= !same;
-        let (unit, usual) = match &tracer.catalog.surfaces[surface as usize] {
+        let (surface, offset) = tracer.catalog.surface(surface);
+        let (unit, usual) = match surface {
             Surface::Plane(plane) => match plane.normal.normalized() {
                 Some(unit) => (Vector::from_one(unit), u8::MAX),
                 None => (normal, 0),
             },
             Surface::Quadric(quadric) => {
-                let (unit, usual) = gradient(quadric, position).normalized();
+                let (unit, usual) = gradient(quadric, o.minus::<I>(offset) + d * t).normalized();
                 (unit, usual.bits())
             }
-            Surface::Torus(_) | Surface::Mesh(_) => (normal, 0),
+            Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (normal, 0),
         };
         unusual |= same & !usual;
         normal = Vector::select(Mask::from_bits(same), unit, normal);

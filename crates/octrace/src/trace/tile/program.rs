@@ -127,7 +127,7 @@ impl Solved {
                         *row = Row::new(quadric(surface, &rays(slot)).negated(negated));
                     }
                 }
-                Some(Surface::Torus(_) | Surface::Mesh(_)) | None => {}
+                Some(Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_)) | None => {}
             }
         }
     }

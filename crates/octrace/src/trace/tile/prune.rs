@@ -73,10 +73,11 @@ impl<I: Isa> Across<I> for Boxes<I> {
 }
 
 impl<I: Isa> Parts<I, Film> {
-    /// The parts of a beam between the depths, with a margin all around.
+    /// The parts of a beam between the depths, with a margin all around, seen from `from`.
     #[inline(always)]
-    pub fn of_beam(beam: &Beam, (near, far): (f64, f64), margin: f64) -> Self {
+    pub fn of_beam(beam: &Beam, (near, far): (f64, f64), margin: f64, from: Vec3) -> Self {
         let (origin, direction) = beam.middles();
+        let origin = origin.minus::<I>(from);
         let sides = match beam.parallel {
             true => beam.half_part,
             false => beam.half_part.map(|side| side * far),
@@ -162,7 +163,7 @@ impl Known {
                     let (inside, outside) = match surface_of(catalog, words[at]) {
                         Some(Surface::Plane(plane)) => parts.plane(plane),
                         Some(Surface::Quadric(quadric)) => parts.quadric(quadric),
-                        Some(Surface::Torus(_) | Surface::Mesh(_)) | None => (0, 0),
+                        Some(Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_)) | None => (0, 0),
                     };
                     if negated { (outside, inside) } else { (inside, outside) }
                 }

@@ -330,10 +330,8 @@ fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &m
         }
         // First those that start outside; it turns out which do not.
         for wanted in [true, false] {
-            let (catalog, program) = (&tracer.catalog, &body.program);
-            let (body, only_plain) = (number as u32, tracer.only_plain);
-            let scenery = Scenery { catalog, program, octree, wanted, body, only_plain };
-            walk::<I, Own>(&scenery, Lead::Signs(signs), tile, scratch);
+            let scenery = Scenery::of(tracer, number, octree, wanted);
+            walk::<I, Own>(scenery, Lead::Signs(signs), tile, scratch);
             let mut some_started_inside = false;
             for packet in &mut tile.packets {
                 some_started_inside |= packet.started_there != 0;

@@ -17,7 +17,8 @@ use super::prune::Known;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::Vec3;
 use crate::octree::{CellWord, Kind, Octree};
-use crate::trace::Scratch;
+use crate::trace::body::Body;
+use crate::trace::{Scratch, Tracer};
 use std::marker::PhantomData;
 
 /// What a tile is traced through.
@@ -30,15 +31,38 @@ pub(super) struct Scenery<'a> {
     pub wanted: bool,
     /// The body's number.
     pub body: u32,
-    /// Whether all surfaces are planes and quadrics.
+    /// Whether all surfaces are planes and quadrics, but for whole solids.
     pub only_plain: bool,
+    /// Solids that stand in many places; none in a copy of one.
+    pub prototypes: &'a [Body],
+    /// Where the origin of the octree's and the surfaces' coordinates is.
+    pub offset: Vec3,
+    /// What is added to the numbers of literals.
+    pub literal_shift: u32,
 }
 
-impl Scenery<'_> {
+impl<'a> Scenery<'a> {
+    /// A body as a whole.
+    pub fn of(tracer: &'a Tracer, number: usize, octree: &'a Octree, wanted: bool) -> Self {
+        let body = &tracer.bodies[number];
+        let prototypes = body.prototypes();
+        Self {
+            catalog: &tracer.catalog,
+            program: &body.program,
+            octree,
+            wanted,
+            body: number as u32,
+            only_plain: tracer.only_plain,
+            prototypes,
+            offset: Vec3::ZERO,
+            literal_shift: 0,
+        }
+    }
+
     /// Whether all surfaces of a program can be crossed in lanes.
     #[inline(always)]
     pub(super) fn is_plain(&self, words: &[u32]) -> bool {
-        self.only_plain || is_plain(self.catalog, words)
+        self.only_plain && self.prototypes.is_empty() || is_plain(self.catalog, words)
     }
 }
 
@@ -53,9 +77,14 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    /// The most cells that wait: seven for each level, and the last one's children.
-    pub const MOST: usize = 160;
+    /// The most cells that wait: seven for each level, and the last one's children; as many again for a copy of a solid.
+    pub const MOST: usize = 320;
     pub const NOTHING: Self = Self { word: CellWord::OUTSIDE, center: Vec3::ZERO, half: 0.0, packets: 0 };
+
+    /// All of an octree, for all packets.
+    pub fn root(octree: &Octree) -> Self {
+        Self { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX }
+    }
 }
 
 /// How packets are led through the octree.
@@ -69,7 +98,7 @@ pub(super) enum Lead {
 
 /// Follows all packets to the first crossing.
 #[inline(always)]
-pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
+pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
     let RayTile { packets, beam, bundles, waiting, solved, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
@@ -99,7 +128,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: &Scenery, lead: Lead, tile: &
 }
 
 pub(super) struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
-    pub scenery: &'b Scenery<'a>,
+    pub scenery: Scenery<'a>,
     pub beam: &'b Beam,
     pub bundles: &'b mut Bundles,
     pub packets: &'b mut [Packet; PACKETS],
@@ -124,15 +153,16 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// The cells of the octree.
     #[inline(always)]
     fn inside(&mut self, waiting: &mut [Waiting; Waiting::MOST]) {
-        let Scenery { octree, wanted, .. } = *self.scenery;
-        let void = if wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
+        let void = if self.scenery.wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
         let beam = self.beam;
-        waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX };
-        let mut count = usize::from(octree.root != void);
-        while count > 0 && self.open != 0 {
+        waiting[0] = Waiting::root(self.scenery.octree);
+        let mut count = usize::from(waiting[0].word != void);
+        let mut visit = None;
+        while self.goes_on(&mut count, &mut visit) {
             count -= 1;
+            let Scenery { octree, offset, .. } = self.scenery;
             let Waiting { word, center, half, .. } = waiting[count];
-            let reached = beam.reached::<I>(center, half + octree.margin);
+            let reached = beam.reached::<I>(center + offset, half + octree.margin);
             let packets = reached.packets & self.open;
             if packets == 0 {
                 continue;
@@ -155,9 +185,16 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                         count += 1;
                     }
                 }
-                Kind::Leaf(offset) => {
+                Kind::Leaf(program) => {
                     self.scratch.counters.cells += 1;
-                    self.leaf(octree.program(offset), packets, center, half);
+                    let words = octree.program(program);
+                    match self.copy_in(words) {
+                        None => self.leaf(words, packets, center, half),
+                        Some(placed) => {
+                            let packets = packets & self.reach_copy(placed);
+                            self.visit(placed, packets, Cube { center, half }, waiting, &mut count, &mut visit);
+                        }
+                    }
                 }
                 // All inside what the rays come to: they should have met its surface before.
                 Kind::Outside | Kind::Inside => self.give_up_in(packets, Cube { center, half }, (0.0, f64::INFINITY)),
@@ -168,14 +205,16 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// The cells of the octree, each for those packets that come through it.
     #[inline(always)]
     fn inside_singly(&mut self, near: usize, waiting: &mut [Waiting; Waiting::MOST]) {
-        let Scenery { octree, wanted, .. } = *self.scenery;
-        let void = if wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
+        let void = if self.scenery.wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
         let everywhere = (0.0, f64::INFINITY);
-        waiting[0] = Waiting { word: octree.root, center: octree.center, half: octree.half, packets: u32::MAX };
-        self.bundles.gather::<I>(self.packets, near, Cube { center: octree.center, half: octree.half });
-        let mut count = usize::from(octree.root != void);
-        while count > 0 && self.open != 0 {
+        waiting[0] = Waiting::root(self.scenery.octree);
+        let Octree { center, half, .. } = *self.scenery.octree;
+        self.bundles.gather::<I>(self.packets, near, Cube { center, half });
+        let mut count = usize::from(waiting[0].word != void);
+        let mut visit = None;
+        while self.goes_on(&mut count, &mut visit) {
             count -= 1;
+            let octree = self.scenery.octree;
             let Waiting { word, center, half, packets } = waiting[count];
             let packets = packets & self.open;
             let cube = Cube { center, half };
@@ -204,7 +243,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 }
                 Kind::Leaf(offset) => {
                     self.scratch.counters.cells += 1;
-                    self.leaf_of_stream(octree.program(offset), packets, cube, near);
+                    let words = octree.program(offset);
+                    match self.copy_in(words) {
+                        Some(placed) => self.visit(placed, packets, cube, waiting, &mut count, &mut visit),
+                        None => self.leaf_of_stream(words, packets, cube, near),
+                    }
                 }
                 Kind::Outside | Kind::Inside => self.give_up_in(packets, cube, everywhere),
             }
@@ -216,7 +259,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     fn octants_met(&self, number: usize, cube: Cube) -> u8 {
         let packet = &self.packets[number];
         let (here, Stretch { t_in, t_out }) = self.crossing(number, cube, (0.0, f64::INFINITY));
-        let origin = O::of(packet, self.beam.eye);
+        let origin = O::of(packet, self.beam.eye, self.scenery.offset);
         let middle = |axis: usize, origin: O::Number, center: f64| {
             (O::Number::from_one(center) - origin).lanes() * F64s::<I>::load(&packet.inverse[axis])
         };
@@ -241,6 +284,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     #[inline(always)]
     fn nearest_octant(&self, center: Vec3) -> usize {
         let Beam { eye, forward, parallel, .. } = *self.beam;
+        let eye = eye - self.scenery.offset;
         let side =
             |eye: f64, forward: f64, center: f64| usize::from(if parallel { forward < 0.0 } else { eye > center });
         side(eye.x, forward.x, center.x) | side(eye.y, forward.y, center.y) << 1 | side(eye.z, forward.z, center.z) << 2

@@ -82,6 +82,16 @@ impl<N> Vector<N> {
     {
         Self { x: N::from_one(v.x), y: N::from_one(v.y), z: N::from_one(v.z) }
     }
+
+    /// Less the same for all lanes.
+    #[inline(always)]
+    pub fn minus<I: Isa>(self, v: Vec3) -> Self
+    where
+        N: Number<I>,
+    {
+        let v = Self::from_one(v);
+        Self { x: self.x - v.x, y: self.y - v.y, z: self.z - v.z }
+    }
 }
 
 impl<N: Add<Output = N>> Add for Vector<N> {
