@@ -4,8 +4,8 @@
 
 use super::lanes::{F64s, Isa, Kernel, LANES, Mask, Number, Stored};
 use super::packet::{Origins, Packet};
-use super::program::{CHUNK, crossed};
-use super::walk::Walk;
+use super::program::{CHUNK, Solving, crossed};
+use super::walk::{Scenery, Walk};
 use crate::geom::Vec3;
 
 /// A cube.
@@ -79,10 +79,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Stretches of some packets with a plain program.
     #[inline(always)]
     pub(super) fn program(&mut self, words: &[u32], chunk: &Chunk) {
-        let (wanted, eye, offset) = (self.scenery.wanted, self.beam.eye, self.scenery.offset);
-        let packets = &*self.packets;
-        let rays = |slot: usize| packets[chunk.numbers[slot] as usize].rays::<I, O>(eye, offset);
-        self.solved.solve(self.scenery.catalog, words, chunk.count, rays);
+        let Scenery { catalog, wanted, offset, .. } = self.scenery;
+        let numbers = &chunk.numbers[..chunk.count];
+        let solving = Solving { packets: self.packets, numbers, eye: self.beam.eye, offset };
+        self.solved.solve::<I, O>(catalog, words, &solving);
         for slot in 0..chunk.count {
             let here = Mask::from_bits(chunk.here[slot]);
             let (t_in, t_out) = (F64s::load(&chunk.t_in[slot]), F64s::load(&chunk.t_out[slot]));

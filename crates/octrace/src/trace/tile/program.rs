@@ -3,9 +3,12 @@
 //! Functions for programs of one, two and three levels, one made of the other: recursion could not be compiled for wide
 //! registers as a whole. Deeper programs are for scalar code.
 
+use super::PACKETS;
 use super::crossing::{Crossed, Rays, crossed_by, plane, quadric};
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored};
+use super::packet::{Origins, Packet};
 use crate::compile::{Catalog, Word, node_end};
+use crate::geom::Vec3;
 use crate::surface::Surface;
 
 /// The most operators above a literal.
@@ -97,6 +100,25 @@ pub(super) struct Solved {
     rows: Box<[[Row; CHUNK]; MAX_WORDS]>,
 }
 
+/// The packets whose rays are crossed.
+pub(super) struct Solving<'a> {
+    pub packets: &'a [Packet; PACKETS],
+    /// Which of them.
+    pub numbers: &'a [u8],
+    /// Where rays start that start at one point.
+    pub eye: Vec3,
+    /// Where the origin of the surfaces' coordinates is.
+    pub offset: Vec3,
+}
+
+impl Solving<'_> {
+    /// The rays of a packet. (Not a closure: it may be compiled by itself, for registers that are not wide.)
+    #[inline(always)]
+    fn rays<I: Isa, O: Origins<I>>(&self, slot: usize) -> Rays<I, O::Number> {
+        self.packets[self.numbers[slot] as usize].rays::<I, O>(self.eye, self.offset)
+    }
+}
+
 impl Default for Solved {
     fn default() -> Self {
         Self { rows: Box::new([[Row::default(); CHUNK]; MAX_WORDS]) }
@@ -106,25 +128,19 @@ impl Default for Solved {
 impl Solved {
     /// Crosses some packets' rays with every literal of a plain program.
     #[inline(always)]
-    pub fn solve<I: Isa, N: Number<I>>(
-        &mut self,
-        catalog: &Catalog,
-        words: &[u32],
-        count: usize,
-        rays: impl Fn(usize) -> Rays<I, N>,
-    ) {
+    pub fn solve<I: Isa, O: Origins<I>>(&mut self, catalog: &Catalog, words: &[u32], packets: &Solving) {
         for (rows, &word) in self.rows.iter_mut().zip(words) {
             let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
-            let rows = &mut rows[..count.min(CHUNK)];
+            let rows = &mut rows[..packets.numbers.len().min(CHUNK)];
             match surface_of(catalog, word) {
                 Some(Surface::Plane(surface)) => {
                     for (slot, row) in rows.iter_mut().enumerate() {
-                        *row = Row::new(plane(surface, &rays(slot)).negated(negated));
+                        *row = Row::new(plane(surface, &packets.rays::<I, O>(slot)).negated(negated));
                     }
                 }
                 Some(Surface::Quadric(surface)) => {
                     for (slot, row) in rows.iter_mut().enumerate() {
-                        *row = Row::new(quadric(surface, &rays(slot)).negated(negated));
+                        *row = Row::new(quadric(surface, &packets.rays::<I, O>(slot)).negated(negated));
                     }
                 }
                 Some(Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_)) | None => {}

@@ -249,7 +249,8 @@ impl Task for Sort<'_> {
                 sorted.alone.push(first + left.trailing_zeros());
                 left &= left - 1;
             }
-            let signs = eight.direction.map(|v| F64s::<I>::load(&v).signs());
+            let [x, y, z] = &eight.direction;
+            let signs = [F64s::<I>::load(x).signs(), F64s::<I>::load(y).signs(), F64s::<I>::load(z).signs()];
             let mut left = usual;
             while left != 0 {
                 let lane = left.trailing_zeros();
