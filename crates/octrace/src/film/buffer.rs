@@ -35,7 +35,8 @@ impl Film {
 
     /// sRGB with straight alpha, 8 bits a channel, RGBA.
     pub fn to_rgba8(&self) -> Vec<u8> {
-        self.encode(encode8, |alpha| (alpha * 255.0 + 0.5) as u8)
+        let steps = Steps::get();
+        self.encode(|v| steps.encode(v), |alpha| (alpha * 255.0 + 0.5) as u8)
     }
 
     /// sRGB with straight alpha, 16 bits a channel, RGBA.
@@ -44,39 +45,64 @@ impl Film {
         self.encode(|v| round(linear_to_srgb(v)), round)
     }
 
-    fn encode<T>(&self, color: impl Fn(f64) -> T, alpha: impl Fn(f64) -> T) -> Vec<T> {
-        let mut samples = Vec::with_capacity(4 * self.pixels.len());
-        for &[r, g, b, a] in &self.pixels {
-            let a = f64::from(a).clamp(0.0, 1.0);
-            let straight = |v: f32| if a > 0.0 { f64::from(v) / a } else { 0.0 };
-            samples.extend([color(straight(r)), color(straight(g)), color(straight(b)), alpha(a)]);
+    fn encode<T: Copy>(&self, color: impl Fn(f64) -> T, alpha: impl Fn(f64) -> T) -> Vec<T> {
+        let mut samples: Vec<T> = Vec::with_capacity(4 * self.pixels.len());
+        // Backgrounds and flat faces are of one colour.
+        let mut last: Option<([f32; 4], [T; 4])> = None;
+        for pixel in &self.pixels {
+            let encoded = match last {
+                Some((same, encoded)) if same == *pixel => encoded,
+                _ => {
+                    let [r, g, b, a] = pixel.map(f64::from);
+                    let a = a.clamp(0.0, 1.0);
+                    let straight = |v: f64| if a > 0.0 { v / a } else { 0.0 };
+                    [color(straight(r)), color(straight(g)), color(straight(b)), alpha(a)]
+                }
+            };
+            last = Some((*pixel, encoded));
+            samples.extend_from_slice(&encoded);
         }
         samples
     }
 }
 
-/// The linear values from which on each of the 256 steps of 8-bit sRGB begins.
-static STEPS: LazyLock<[f64; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|step| if step == 0 { f64::NEG_INFINITY } else { srgb_to_linear((step as f64 - 0.5) / 255.0) })
-});
+/// The steps of 8-bit sRGB.
+struct Steps {
+    /// The linear values from which on each of the 256 begins.
+    starts: [f64; 256],
+    /// For every thousandth or so of linear light the step that it begins in.
+    guesses: [u8; FIRST_GUESSES],
+}
 
-/// For every thousandth or so of linear light the step that it begins in.
-static STEP_AT: LazyLock<[u8; FIRST_GUESSES]> = LazyLock::new(|| {
-    std::array::from_fn(|i| {
-        let v = i as f64 / (FIRST_GUESSES - 1) as f64;
-        (STEPS.partition_point(|&step| step <= v) - 1) as u8
-    })
-});
 const FIRST_GUESSES: usize = 1025;
 
-/// One linear value as 8-bit sRGB, rounded to the nearest step; NaN is 0.
-fn encode8(v: f64) -> u8 {
-    let v = if v > 0.0 { v.min(1.0) } else { 0.0 };
-    let mut step = STEP_AT[(v * (FIRST_GUESSES - 1) as f64) as usize];
-    while step < u8::MAX && STEPS[usize::from(step) + 1] <= v {
-        step += 1;
+impl Steps {
+    fn get() -> &'static Self {
+        static STEPS: LazyLock<Steps> = LazyLock::new(Steps::new);
+        &STEPS
     }
-    step
+
+    fn new() -> Self {
+        let starts: [f64; 256] = std::array::from_fn(|step| match step {
+            0 => f64::NEG_INFINITY,
+            _ => srgb_to_linear((step as f64 - 0.5) / 255.0),
+        });
+        let guesses = std::array::from_fn(|i| {
+            let v = i as f64 / (FIRST_GUESSES - 1) as f64;
+            (starts.partition_point(|&start| start <= v) - 1) as u8
+        });
+        Self { starts, guesses }
+    }
+
+    /// One linear value as 8-bit sRGB, rounded to the nearest step; NaN is 0.
+    fn encode(&self, v: f64) -> u8 {
+        let v = if v > 0.0 { v.min(1.0) } else { 0.0 };
+        let mut step = self.guesses[(v * (FIRST_GUESSES - 1) as f64) as usize];
+        while step < u8::MAX && self.starts[usize::from(step) + 1] <= v {
+            step += 1;
+        }
+        step
+    }
 }
 
 #[cfg(test)]
@@ -85,12 +111,13 @@ mod tests {
 
     #[test]
     fn steps_are_where_rounding_puts_them() {
+        let steps = Steps::get();
         for i in 0..=200_000 {
             let v = f64::from(i) / 200_000.0;
             let exact = linear_to_srgb(v) * 255.0;
-            let step = f64::from(encode8(v));
+            let step = f64::from(steps.encode(v));
             assert!((exact - step).abs() <= 0.5 + 1e-6, "{v}: {exact} becomes {step}");
         }
-        assert_eq!([-1.0, 0.0, 1.0, 7.0, f64::NAN].map(encode8), [0, 0, 255, 255, 0]);
+        assert_eq!([-1.0, 0.0, 1.0, 7.0, f64::NAN].map(|v| steps.encode(v)), [0, 0, 255, 255, 0]);
     }
 }

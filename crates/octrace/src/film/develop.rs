@@ -1,5 +1,6 @@
 //! From what is seen along a tile's rays to its pixels.
 
+use super::tile::TileRows;
 use crate::shade::EightSeen;
 use crate::trace::lanes::{F64s, Isa, LANES};
 use crate::trace::{PACKET_PX, TILE_PX, Task};
@@ -13,15 +14,13 @@ pub(super) struct Develop<'a> {
     pub seen: &'a [EightSeen],
     /// What a sample counts.
     pub share: f64,
-    /// Pixels in a row of the tile.
-    pub width: usize,
-    pub pixels: &'a mut [[f32; 4]],
+    pub rows: TileRows<'a>,
 }
 
 impl Task for Develop<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { seen, share, width, pixels } = self;
+        let Self { seen, share, mut rows } = self;
         for (number, seen) in seen.iter().enumerate() {
             let (left, top) = (number % ACROSS * PACKET_PX.0, number / ACROSS * PACKET_PX.1);
             let [r, g, b] = &seen.color;
@@ -33,12 +32,8 @@ impl Task for Develop<'_> {
                 }
             }
             let [r, g, b, alpha] = channels;
-            for row in 0..PACKET_PX.1 {
-                let first = (top + row) * width + left;
-                let count = width.saturating_sub(left).min(PACKET_PX.0);
-                let Some(pixels) = pixels.get_mut(first..first + count) else { break };
-                for (column, pixel) in pixels.iter_mut().enumerate() {
-                    let lane = row * PACKET_PX.0 + column;
+            for (row, lanes) in rows[top..].iter_mut().zip([0..PACKET_PX.0, PACKET_PX.0..LANES]) {
+                for (pixel, lane) in row.iter_mut().skip(left).zip(lanes) {
                     *pixel = [r[lane], g[lane], b[lane], alpha[lane]];
                 }
             }

@@ -3,6 +3,7 @@
 mod buffer;
 mod develop;
 mod render;
+mod tile;
 
 pub use buffer::Film;
 pub use render::{Background, RenderStats, View, ray_tree, render};

@@ -7,7 +7,7 @@ use crate::model::Rgb;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Media {
     bodies: [u16; Self::MAX],
-    count: usize,
+    count: u8,
 }
 
 impl Media {
@@ -15,12 +15,13 @@ impl Media {
     const MAX: usize = 8;
 
     pub fn inside(&self) -> &[u16] {
-        &self.bodies[..self.count]
+        &self.bodies[..usize::from(self.count)]
     }
 
     pub fn enter(mut self, body: usize) -> Self {
-        if self.count < Self::MAX {
-            self.bodies[self.count] = body as u16;
+        let count = usize::from(self.count);
+        if count < Self::MAX {
+            self.bodies[count] = body as u16;
             self.count += 1;
         }
         self
@@ -28,7 +29,7 @@ impl Media {
 
     pub fn leave(mut self, body: usize) -> Self {
         if let Some(at) = self.inside().iter().rposition(|&b| usize::from(b) == body) {
-            self.bodies.copy_within(at + 1..self.count, at);
+            self.bodies.copy_within(at + 1..usize::from(self.count), at);
             self.count -= 1;
         }
         self

@@ -11,7 +11,7 @@ use super::shadows::Shadows;
 use super::whitted::Whitted;
 use crate::geom::Vec3;
 use crate::model::Rgb;
-use crate::trace::lanes::LANES;
+use crate::trace::lanes::{LANES, Stored};
 use crate::trace::{Backend, EightHits, EightRays, RayTile, Scratch};
 
 /// The memory of a worker for trees of rays. A ray's number is that of its eight, times the lanes, plus its lane.
@@ -89,16 +89,23 @@ impl Wave {
     /// Finds out how the camera rays stand.
     fn stand(&mut self, integrator: &Whitted, scratch: &mut Scratch) {
         let mut last: Option<(Vec3, Standing)> = None;
-        for number in 0..self.rays.len() * LANES {
-            let (eight, lane) = (&self.rays[number / LANES], number % LANES);
-            let ray = eight.ray(lane);
+        for eight in &self.rays {
             // Most cameras are in one place.
-            let standing = match last {
-                Some((origin, standing)) if origin == ray.origin || eight.lanes >> lane & 1 == 0 => standing,
-                _ => integrator.camera_standing(&ray, scratch),
-            };
-            last = Some((ray.origin, standing));
-            self.standings.push(standing);
+            if let Some((origin, standing)) = last
+                && eight.origin == origin.to_array().map(|v| Stored([v; LANES]))
+            {
+                self.standings.resize(self.standings.len() + LANES, standing);
+                continue;
+            }
+            for lane in 0..LANES {
+                let ray = eight.ray(lane);
+                let standing = match last {
+                    Some((origin, standing)) if origin == ray.origin || eight.lanes >> lane & 1 == 0 => standing,
+                    _ => integrator.camera_standing(&ray, scratch),
+                };
+                last = Some((ray.origin, standing));
+                self.standings.push(standing);
+            }
         }
     }
 

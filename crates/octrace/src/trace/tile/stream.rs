@@ -249,6 +249,7 @@ impl Task for Sort<'_> {
                 sorted.alone.push(first + left.trailing_zeros());
                 left &= left - 1;
             }
+            // Not by a closure: those may be compiled by themselves.
             let [x, y, z] = &eight.direction;
             let signs = [F64s::<I>::load(x).signs(), F64s::<I>::load(y).signs(), F64s::<I>::load(z).signs()];
             let mut left = usual;
