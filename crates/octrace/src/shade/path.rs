@@ -19,7 +19,7 @@ impl Whitted<'_> {
         scratch: &mut Scratch,
         watch: &mut impl Watch,
     ) -> Seen {
-        let standing = self.camera_standing(ray, scratch);
+        let standing = self.camera_standing(ray.origin, scratch);
         watch.sets_out(RayKind::Camera, ray, Rgb::WHITE);
         let seen = Path { integrator: self, scratch, watch }.seen(ray, first, standing);
         watch.returns(seen.color);

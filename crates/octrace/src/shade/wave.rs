@@ -98,13 +98,12 @@ impl Wave {
                 continue;
             }
             for lane in 0..LANES {
-                let ray = eight.ray(lane);
-                let standing = match last {
-                    Some((origin, standing)) if origin == ray.origin || eight.lanes >> lane & 1 == 0 => standing,
-                    _ => integrator.camera_standing(&ray, scratch),
+                let origin = eight.ray(lane).origin;
+                last = match last {
+                    Some((known, _)) if known == origin || eight.lanes >> lane & 1 == 0 => last,
+                    _ => Some((origin, integrator.camera_standing(origin, scratch))),
                 };
-                last = Some((ray.origin, standing));
-                self.standings.push(standing);
+                self.standings.extend(last.map(|(_, standing)| standing));
             }
         }
     }

@@ -113,11 +113,11 @@ impl<'a> Whitted<'a> {
     }
 
     /// How a camera ray sets out.
-    pub(super) fn camera_standing(&self, ray: &Ray, scratch: &mut Scratch) -> Standing {
+    pub(super) fn camera_standing(&self, origin: Vec3, scratch: &mut Scratch) -> Standing {
         let mut media = Media::default();
-        if self.tracer.bodies() > 1 && (self.tracer.is_unbounded() || self.tracer.bounds().contains(ray.origin)) {
+        if self.tracer.bodies() > 1 && (self.tracer.is_unbounded() || self.tracer.bounds().contains(origin)) {
             for body in 0..self.tracer.bodies() {
-                if self.tracer.body_contains(body, ray.origin, scratch) {
+                if self.tracer.body_contains(body, origin, scratch) {
                     media = media.enter(body);
                 }
             }

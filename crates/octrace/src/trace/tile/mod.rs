@@ -19,6 +19,7 @@ mod packet;
 mod points;
 mod program;
 mod prune;
+mod sort;
 mod stream;
 mod walk;
 
@@ -43,7 +44,7 @@ use lanes::{F64s, Isa, LANES, Stored, Vector};
 use leaf::{MAX_CUTS, Slab, Slabs};
 use packet::{Common, Own, Packet};
 use program::Solved;
-use stream::Sorted;
+use sort::Sorted;
 use walk::{Lead, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.

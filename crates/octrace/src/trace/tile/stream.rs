@@ -6,8 +6,9 @@
 
 use super::dispatch::{Backend, Task};
 use super::eight::{EightHits, EightRays};
-use super::lanes::{F64s, Isa, LANES, Vector};
+use super::lanes::{Isa, LANES};
 use super::packet::Own;
+use super::sort::{Alike, Sort};
 use super::walk::{Lead, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
 use crate::geom::Ray;
@@ -22,27 +23,6 @@ pub struct RayTo {
     /// Crossings beyond this parameter do not count.
     pub end: f64,
 }
-
-/// The rays of a stream, sorted. A ray's number is that of its eight, times the lanes, plus its lane.
-#[derive(Debug, Default)]
-pub(super) struct Sorted {
-    /// By the signs of their directions, a bit for each that is negative.
-    alike: [Alike; 8],
-    /// Those that must be traced by themselves.
-    alone: Vec<u32>,
-}
-
-/// Rays whose directions have the same signs.
-#[derive(Debug, Default)]
-struct Alike {
-    /// The better part of eights: their numbers, and the lanes.
-    together: Vec<(u32, u8)>,
-    /// Single rays.
-    loose: Vec<u32>,
-}
-
-/// Of fewer rays of an eight, each is loose.
-const TOGETHER: u32 = 4;
 
 /// What is to be found out.
 enum Answers<'a> {
@@ -224,69 +204,6 @@ impl RayTile {
             packet.wanted = u8::MAX >> (LANES - loose.len());
         }
     }
-}
-
-/// Sorts rays.
-struct Sort<'a> {
-    /// Which rays can be traced together; `None` if none can.
-    usual: Option<Usual>,
-    rays: &'a [EightRays],
-    sorted: &'a mut Sorted,
-}
-
-impl Task for Sort<'_> {
-    #[inline(always)]
-    fn run<I: Isa>(self) {
-        let Self { usual, rays, sorted } = self;
-        for (number, eight) in (0_u32..).zip(rays) {
-            let usual = match &usual {
-                Some(usual) if eight.lanes != 0 => usual_lanes::<I>(usual, eight) & eight.lanes,
-                _ => 0,
-            };
-            let first = number * LANES as u32;
-            let mut left = eight.lanes & !usual;
-            while left != 0 {
-                sorted.alone.push(first + left.trailing_zeros());
-                left &= left - 1;
-            }
-            // Not by a closure: those may be compiled by themselves.
-            let [x, y, z] = &eight.direction;
-            let signs = [F64s::<I>::load(x).signs(), F64s::<I>::load(y).signs(), F64s::<I>::load(z).signs()];
-            let mut left = usual;
-            while left != 0 {
-                let lane = left.trailing_zeros();
-                // All lanes that have the same signs.
-                let mut same = left;
-                let mut alike = 0;
-                for (axis, signs) in signs.iter().enumerate() {
-                    let sign = signs >> lane & 1;
-                    alike |= usize::from(sign) << axis;
-                    same &= if sign != 0 { *signs } else { !signs };
-                }
-                left &= !same;
-                let Alike { together, loose } = &mut sorted.alike[alike];
-                if same.count_ones() >= TOGETHER {
-                    together.push((number, same));
-                    continue;
-                }
-                while same != 0 {
-                    loose.push(first + same.trailing_zeros());
-                    same &= same - 1;
-                }
-            }
-        }
-    }
-}
-
-/// As [`Usual::holds`], of rays that have a stretch to be followed along.
-#[inline(always)]
-fn usual_lanes<I: Isa>(usual: &Usual, rays: &EightRays) -> u8 {
-    let (origin, direction) = (Vector::<F64s<I>>::load(&rays.origin), Vector::<F64s<I>>::load(&rays.direction));
-    let (least, most) = (F64s::splat(Usual::DIRECTIONS.start), F64s::splat(Usual::DIRECTIONS.end));
-    let largest = direction.max_abs();
-    let away = (Vector::from_one(usual.center) - origin).max_abs();
-    let ahead = F64s::load(&rays.end).gt(F64s::zero());
-    (largest.ge(least) & largest.lt(most) & away.le(F64s::splat(usual.far)) & ahead).bits()
 }
 
 /// Finds the answers for rays, but for those that are loose or given up: what those met is left in the tile.
