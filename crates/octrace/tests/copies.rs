@@ -85,7 +85,7 @@ fn a_grid_is_stored_once() {
     assert_eq!((once.primitives, once.literals), (each.primitives, each.literals));
     assert!(once.surfaces < 20 && each.surfaces > 200, "{} {}", once.surfaces, each.surfaces);
     let bytes = |stats: octrace::trace::TracerStats| stats.octree.expect("there is one").bytes;
-    assert!(10 * bytes(once) < bytes(each), "{} {}", bytes(once), bytes(each));
+    assert!(8 * bytes(once) < bytes(each), "{} {}", bytes(once), bytes(each));
 }
 
 #[test]

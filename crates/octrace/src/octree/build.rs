@@ -54,10 +54,11 @@ pub fn build(
     }
     let largest = bounds.size().max_abs();
     let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
-    // Faces love round numbers. A cube of an odd size in an odd place keeps cell walls off them.
-    let half = short((0.5 * 1.0737 * largest).max(farthest * 1e-9).max(f64::MIN_POSITIVE * 1e30));
-    let center = bounds.center() + Vec3::new(0.0137, 0.0113, 0.0127) * half;
-    let center = Vec3::from(center.to_array().map(|c| (c / half * 1024.0).round() / 1024.0 * half));
+    // Faces love round numbers. A cube of an odd size in an odd place keeps cell walls off them; it is hardly larger than
+    // what is in it, lest rays come through cells before they come to anything.
+    let half = short((0.5 * 1.004 * largest).max(farthest * 1e-9).max(f64::MIN_POSITIVE * 1e30));
+    let center = bounds.center() + Vec3::new(0.001_37, 0.001_13, 0.001_27) * half;
+    let center = Vec3::from(center.to_array().map(|c| (c / half * 8192.0).round() / 8192.0 * half));
     // Hits are computed to some 1e-14 of the distances involved; the margin leaves plenty.
     let margin = (1e-8 * half).max(1e-12 * farthest);
 
@@ -128,11 +129,11 @@ fn has_mixed_leaves(catalog: &Catalog, programs: &[u32]) -> bool {
     false
 }
 
-/// The number rounded up to eight binary digits. With few digits in the root's place and size, the planes of all cells are
+/// The number rounded up to eleven binary digits. With few digits in the root's place and size, the planes of all cells are
 /// computed without rounding, whatever the way (as long as the root is not extremely far from the origin).
 fn short(v: f64) -> f64 {
     let (fraction, exponent) = libm::frexp(v);
-    libm::ldexp((fraction * 256.0).ceil() / 256.0, exponent)
+    libm::ldexp((fraction * 2048.0).ceil() / 2048.0, exponent)
 }
 
 /// Where no depth is asked for, cutting may read every word of the program so many times. Where surfaces lie apart from each other, as they

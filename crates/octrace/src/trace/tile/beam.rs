@@ -192,6 +192,13 @@ impl Beam {
         (load(&self.origins), load(&self.directions))
     }
 
+    /// Whether parts between those depths are so much deeper than wide that it pays to cut them.
+    #[inline(always)]
+    pub fn is_deep(&self, near: f64, far: f64) -> bool {
+        let width = if self.parallel { 1.0 } else { far };
+        0.5 * (far - near) > 4.0 * self.half_part[0].max_abs() * width
+    }
+
     /// Between which depths a cell lies; nothing is in front of the first depth that rays have.
     #[inline(always)]
     pub fn depths(&self, center: Vec3, half: f64) -> (f64, f64) {

@@ -55,7 +55,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
 
     /// A stretch with a program of one literal, which is plain.
     #[inline(always)]
-    fn single(&mut self, word: u32, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
+    pub(super) fn single(&mut self, word: u32, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
         self.scratch.counters.surface_tests += u64::from(here.bits().count_ones());
         let wanted = self.scenery.wanted;
         let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);

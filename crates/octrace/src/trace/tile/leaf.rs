@@ -1,6 +1,7 @@
 //! Leaves: their programs are pruned for the parts of a tile's beam and cut in depth, then evaluated.
 
 use super::beam::PART_PACKETS;
+use super::bundles::{self, bundles_of};
 use super::kernels::{Cube, GiveUp, OneByOne, Several, Single, bits_of};
 use super::lanes::Isa;
 use super::packet::Origins;
@@ -11,6 +12,9 @@ use crate::geom::Vec3;
 
 /// Programs are pruned for at least so many packets; for fewer it takes longer than it saves.
 const PRUNED_FOR: u32 = 6;
+
+/// Of streams, they are pruned for at least so many.
+const STREAM_PRUNED_FOR: u32 = 5;
 
 /// A slab is cut in two so many times at most.
 pub(super) const MAX_CUTS: usize = 4;
@@ -63,7 +67,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             if parts == 0 {
                 continue;
             }
-            let region = Parts::<I>::new(self.beam, (near, far), margin, offset);
+            let region = Parts::<I, _>::of_beam(self.beam, (near, far), margin, offset);
             self.known.learn(self.scenery.catalog, words.words(), &region);
             let (always, never) = self.known.decided();
             let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
@@ -71,15 +75,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 self.give_up_in(packets & packets_of(leaked & parts), cube, (near, far));
             }
             let undecided = parts & !(settled | leaked);
-            let can_be_cut = cuts < MAX_CUTS && region.is_deep();
+            let can_be_cut = cuts < MAX_CUTS && self.beam.is_deep(near, far);
             let crowded = if can_be_cut { self.known.crowded(words.words(), undecided) } else { 0 };
-            let mut left = undecided & !crowded;
-            while left != 0 {
-                let alike = self.known.alike(words.words(), left);
-                let pruned = self.known.pruned(words.words(), left & left.wrapping_neg());
-                self.evaluate(pruned.words(), packets & packets_of(alike), cube, (near, far));
-                left &= !alike;
-            }
+            self.evaluate_pruned(words.words(), undecided & !crowded, packets, packets_of, cube, (near, far));
             if crowded != 0 {
                 let words = self.known.pruned(words.words(), crowded);
                 let middle = 0.5 * (near + far);
@@ -87,6 +85,57 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                 self.slabs[count + 1] = Slab { words, near, far: middle, parts: crowded, cuts: cuts + 1 };
                 count += 2;
             }
+        }
+    }
+
+    /// A leaf, for those packets of a stream. What bundles see of it is pruned, if they are not too wide for it.
+    #[inline(always)]
+    pub(super) fn leaf_of_stream(&mut self, words: &[u32], packets: u32, cube: Cube, signs: usize) {
+        let everywhere = (0.0, f64::INFINITY);
+        if !is_short(words) {
+            self.give_up_in(packets, cube, everywhere);
+            return;
+        }
+        let narrow = match packets.count_ones() {
+            0..STREAM_PRUNED_FOR => 0,
+            _ => bundles::packets_of(self.bundles.narrow::<I>(cube.half)),
+        };
+        if packets & !narrow != 0 {
+            self.evaluate(words, packets & !narrow, cube, everywhere);
+        }
+        let packets = packets & narrow;
+        if packets == 0 {
+            return;
+        }
+        let (margin, offset) = (self.scenery.octree.margin, self.scenery.offset);
+        let passage = self.bundles.passage::<I>(signs, cube, offset);
+        let here = passage.bundles & bundles_of(packets);
+        self.known.learn(self.scenery.catalog, words, &self.bundles.parts(&passage, margin, offset));
+        let (always, never) = self.known.decided();
+        let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
+        if leaked & !settled & here != 0 {
+            self.give_up_in(packets & bundles::packets_of(leaked & here), cube, everywhere);
+        }
+        self.evaluate_pruned(words, here & !(settled | leaked), packets, bundles::packets_of, cube, everywhere);
+    }
+
+    /// Evaluates what is left of a leaf's program in some parts, of which `packets_of` tells the packets.
+    #[inline(always)]
+    fn evaluate_pruned(
+        &mut self,
+        words: &[u32],
+        parts: u8,
+        packets: u32,
+        packets_of: impl Fn(u8) -> u32,
+        cube: Cube,
+        depths: (f64, f64),
+    ) {
+        let mut left = parts;
+        while left != 0 {
+            let alike = self.known.alike(words, left);
+            let pruned = self.known.pruned(words, left & left.wrapping_neg());
+            self.evaluate(pruned.words(), packets & packets_of(alike), cube, depths);
+            left &= !alike;
         }
     }
 
@@ -119,7 +168,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
 
 /// All packets of some parts.
 #[inline(always)]
-fn packets_of(parts: u8) -> u32 {
+pub(super) fn packets_of(parts: u8) -> u32 {
     let mut packets = 0;
     for (part, part_packets) in PART_PACKETS.iter().enumerate() {
         packets |= if parts >> part & 1 != 0 { *part_packets } else { 0 };

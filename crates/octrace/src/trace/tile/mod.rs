@@ -5,6 +5,7 @@
 //! finds ([`super::march`]), bit for bit; rays that are unusual in any way are traced by that.
 
 mod beam;
+mod bundles;
 mod copy;
 mod crossing;
 mod dispatch;
@@ -30,6 +31,7 @@ use crate::geom::{Bounds, Hit, Ray, Vec3};
 use crate::model::CameraRays;
 use crate::surface::{CellBox, Side};
 use beam::Beam;
+use bundles::Bundles;
 use dispatch::Task;
 use kernels::Chunk;
 use lanes::{Isa, LANES, Stored};
@@ -62,6 +64,7 @@ pub type TileHit = Option<(usize, Hit)>;
 pub struct RayTile {
     packets: [Packet; PACKETS],
     beam: Beam,
+    bundles: Bundles,
     /// Whether all rays start at the beam's eye.
     from_eye: bool,
     waiting: [Waiting; Waiting::MOST],
@@ -79,6 +82,7 @@ impl Default for RayTile {
         Self {
             packets: [Packet::default(); PACKETS],
             beam: Beam::default(),
+            bundles: Bundles::default(),
             from_eye: false,
             waiting: [Waiting::NOTHING; Waiting::MOST],
             solved: Solved::default(),

@@ -2,41 +2,84 @@
 
 use super::kernels::{Chunk, Stretch, bits_of};
 use super::lanes::{F64s, Isa, Kernel, Mask};
+use super::leaf::packets_of;
 use super::packet::Origins;
 use super::program::{CHUNK, is_short};
-use super::walk::Walk;
+use super::prune::Parts;
+use super::walk::{Lead, Scenery, Walk};
 use crate::compile::Constant;
 use crate::geom::Bounds;
 
-impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
-    /// The stretches before the octree's root.
+/// What is left of the program outside the octree's root.
+#[derive(Clone, Copy)]
+enum Left<'a> {
+    /// Nothing that rays could come to.
+    Nothing,
+    /// A program that lanes can evaluate.
+    Plain(&'a [u32]),
+    /// Something else.
+    Other,
+}
+
+impl<'a> Scenery<'a> {
     #[inline(always)]
-    pub(super) fn before(&mut self) {
-        self.outer(|t_in, _, passes| {
-            // Rays that miss the root are followed to the end at once.
-            let t_out = passes.select(t_in, F64s::infinity());
-            (F64s::zero().lt(t_out), Stretch { t_in: F64s::zero(), t_out })
+    fn left_outside(&self) -> Left<'a> {
+        match &self.program.outer {
+            Constant::Everywhere(inside) if *inside == self.wanted => Left::Other,
+            Constant::Everywhere(_) => Left::Nothing,
+            Constant::Words(words) if is_short(words) && self.is_plain(words) => Left::Plain(words),
+            Constant::Words(_) => Left::Other,
+        }
+    }
+}
+
+impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
+    /// The stretches before the octree's root, of rays that come to it.
+    #[inline(always)]
+    pub(super) fn before(&mut self, lead: Lead) {
+        let (Bounds { min, max }, margin) = (self.scenery.octree.bounds(), self.scenery.octree.margin());
+        let (mut packets, mut farthest) = (0, F64s::zero());
+        for number in bits_of(self.open) {
+            let packet = &self.packets[number];
+            let Stretch { t_in, t_out } = self.stretch(packet, (min, max));
+            let here = Mask::from_bits(packet.open) & t_in.le(t_out) & F64s::zero().lt(t_in);
+            packets |= u32::from(here.any()) << number;
+            farthest = here.select(farthest.max(t_in), farthest);
+        }
+        if let (Left::Plain(words), Lead::Beam, true) = (self.scenery.left_outside(), lead, packets != 0) {
+            // Rays are no shorter than they are deep.
+            let farthest = farthest.stored().0.into_iter().fold(0.0, f64::max);
+            let parts = Parts::<I, _>::of_beam(self.beam, (0.0, farthest), margin, self.scenery.offset);
+            self.known.learn(self.scenery.catalog, words, &parts);
+            let (always, never) = self.known.decided();
+            packets &= !packets_of(if self.scenery.wanted { never } else { always });
+        }
+        self.outer(packets, |t_in, _, passes| {
+            (passes & F64s::zero().lt(t_in), Stretch { t_in: F64s::zero(), t_out: t_in })
         });
     }
 
-    /// The stretches behind the octree's root.
+    /// The stretches behind the octree's root; all of those rays that do not come to it.
     #[inline(always)]
     pub(super) fn behind(&mut self) {
-        self.outer(|_, t_out, passes| (passes, Stretch { t_in: t_out, t_out: F64s::infinity() }));
+        self.outer(self.open, |_, t_out, passes| {
+            (Mask::splat(true), Stretch { t_in: passes.select(t_out, F64s::zero()), t_out: F64s::infinity() })
+        });
     }
 
     /// Stretches outside the octree's root: what `stretch` makes of those inside.
     #[inline(always)]
-    fn outer(&mut self, stretch: impl Fn(F64s<I>, F64s<I>, Mask<I>) -> (Mask<I>, Stretch<I>)) {
+    fn outer(&mut self, packets: u32, stretch: impl Fn(F64s<I>, F64s<I>, Mask<I>) -> (Mask<I>, Stretch<I>)) {
         let Bounds { min, max } = self.scenery.octree.bounds();
-        let words = match &self.scenery.program.outer {
-            Constant::Everywhere(inside) if *inside == self.scenery.wanted => None,
-            Constant::Everywhere(_) => return,
-            Constant::Words(words) => Some(&**words).filter(|words| is_short(words) && self.scenery.is_plain(words)),
+        let words = match self.scenery.left_outside() {
+            _ if packets == 0 => return,
+            Left::Nothing => return,
+            Left::Plain(words) => Some(words),
+            Left::Other => None,
         };
         let mut chunk = self.chunk.take().unwrap_or_default();
         chunk.count = 0;
-        for number in bits_of(self.open) {
+        for number in bits_of(packets) {
             let Stretch { t_in, t_out } = self.stretch(&self.packets[number], (min, max));
             let (rays, stretch) = stretch(t_in, t_out, t_in.le(t_out));
             let here = rays & Mask::from_bits(self.packets[number].open);
@@ -70,6 +113,15 @@ struct Outer<'a, 'b, 'c, I: Isa, O: Origins<I>> {
 impl<I: Isa, O: Origins<I>> Kernel for Outer<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
-        self.walk.program(self.words, self.chunk);
+        match *self.words {
+            [word] => {
+                for slot in 0..self.chunk.count {
+                    let (number, here) = (self.chunk.numbers[slot] as usize, Mask::from_bits(self.chunk.here[slot]));
+                    let (t_in, t_out) = (F64s::load(&self.chunk.t_in[slot]), F64s::load(&self.chunk.t_out[slot]));
+                    self.walk.single(word, number, here, Stretch { t_in, t_out });
+                }
+            }
+            _ => self.walk.program(self.words, self.chunk),
+        }
     }
 }

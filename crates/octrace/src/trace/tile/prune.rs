@@ -1,7 +1,7 @@
 //! What is left of a leaf's program for a tile's rays.
 //!
 //! Of a cell that is larger than a tile, the tile's rays see a sliver. Each of the eight parts of the tile's beam, cut off
-//! at the depths of the cell, lies in a parallelepiped; surfaces are classified against all eight at once, as cells are
+//! at the depths of the cell, lies in a parallelepiped, as do bundles of rays of a stream; surfaces are classified against all eight at once, as cells are
 //! ([`Surface::classify`]), and boolean algebra does the rest. No literal takes the place of another, so what is seen where
 //! several are crossed at once stays the same.
 
@@ -10,49 +10,92 @@ use super::crossing::{point, vector};
 use super::lanes::{F64s, Isa, LANES, Vector};
 use super::program::{MAX_LEVELS, MAX_WORDS, surface_of};
 use crate::compile::{Catalog, Word, node_end};
-use crate::geom::Vec3;
+use crate::geom::{Affine, Vec3};
 use crate::surface::{CellBox, Plane, Quadric, QuadricKind, Surface};
 
-/// The eight parts of a beam between two depths, each in a parallelepiped.
-pub(super) struct Parts<I: Isa> {
-    origin: Vector<F64s<I>>,
-    direction: Vector<F64s<I>>,
+/// Eight parts of space, each a parallelepiped: along some rays between two depths, and some way across.
+pub(super) struct Parts<I: Isa, A> {
+    /// The rays in the middles.
+    pub origin: Vector<F64s<I>>,
+    pub direction: Vector<F64s<I>>,
     /// Depths of the middles, and half their range.
-    depth: f64,
-    half_depth: f64,
-    /// Half the extents along the film.
-    sides: [Vec3; 2],
-    margin: f64,
+    pub depth: F64s<I>,
+    pub half_depth: F64s<I>,
+    /// How far they reach across.
+    pub across: A,
+    pub margin: f64,
 }
 
-impl<I: Isa> Parts<I> {
-    /// The parts between the depths, with a margin all around, seen from `from`.
+/// How far parts reach across.
+pub(super) trait Across<I: Isa> {
+    /// By how much points differ at most from the middle, times that vector.
+    fn reach(&self, along: Vec3) -> F64s<I>;
+    /// By how much they differ at most in local coordinates, times that slope.
+    fn change(&self, map: &Affine, slope: Vector<F64s<I>>) -> F64s<I>;
+}
+
+/// All parts are as wide: half their extents along the film.
+pub(super) struct Film {
+    pub sides: [Vec3; 2],
+}
+
+/// Each part reaches as far along the axes as a box does.
+pub(super) struct Boxes<I: Isa> {
+    pub half: Vector<F64s<I>>,
+}
+
+impl<I: Isa> Across<I> for Film {
     #[inline(always)]
-    pub fn new(beam: &Beam, (near, far): (f64, f64), margin: f64, from: Vec3) -> Self {
+    fn reach(&self, along: Vec3) -> F64s<I> {
+        F64s::splat(along.dot(self.sides[0]).abs() + along.dot(self.sides[1]).abs())
+    }
+
+    #[inline(always)]
+    fn change(&self, map: &Affine, slope: Vector<F64s<I>>) -> F64s<I> {
+        let [a, b] = self.sides.map(|side| map.vector(side));
+        Vector::<F64s<I>>::from_one(a).dot(slope).abs() + Vector::<F64s<I>>::from_one(b).dot(slope).abs()
+    }
+}
+
+impl<I: Isa> Across<I> for Boxes<I> {
+    #[inline(always)]
+    fn reach(&self, along: Vec3) -> F64s<I> {
+        Vector::<F64s<I>>::from_one(along.abs()).dot(self.half)
+    }
+
+    #[inline(always)]
+    fn change(&self, map: &Affine, slope: Vector<F64s<I>>) -> F64s<I> {
+        let x = Vector::<F64s<I>>::from_one(map.column(0)).dot(slope).abs();
+        let y = Vector::<F64s<I>>::from_one(map.column(1)).dot(slope).abs();
+        let z = Vector::<F64s<I>>::from_one(map.column(2)).dot(slope).abs();
+        Vector::new(x, y, z).dot(self.half)
+    }
+}
+
+impl<I: Isa> Parts<I, Film> {
+    /// The parts of a beam between the depths, with a margin all around, seen from `from`.
+    #[inline(always)]
+    pub fn of_beam(beam: &Beam, (near, far): (f64, f64), margin: f64, from: Vec3) -> Self {
         let (origin, direction) = beam.middles();
         let origin = origin.minus::<I>(from);
         let sides = match beam.parallel {
             true => beam.half_part,
             false => beam.half_part.map(|side| side * far),
         };
-        Self { origin, direction, depth: 0.5 * (near + far), half_depth: 0.5 * (far - near), sides, margin }
+        let (depth, half_depth) = (F64s::splat(0.5 * (near + far)), F64s::splat(0.5 * (far - near)));
+        Self { origin, direction, depth, half_depth, across: Film { sides }, margin }
     }
+}
 
-    /// Whether they are so much deeper than wide that it pays to cut them.
-    #[inline(always)]
-    pub fn is_deep(&self) -> bool {
-        self.half_depth > 4.0 * self.sides[0].max_abs()
-    }
-
+impl<I: Isa, A: Across<I>> Parts<I, A> {
     /// In which parts a plane's inside is everywhere, and in which it is nowhere.
     #[inline(always)]
     fn plane(&self, plane: &Plane) -> (u8, u8) {
         let normal = Vector::<F64s<I>>::from_one(plane.normal);
         let slope = normal.dot(self.direction);
-        let height = normal.dot(self.origin) - F64s::splat(plane.offset) + slope * F64s::splat(self.depth);
-        let across = self.sides[0].dot(plane.normal).abs() + self.sides[1].dot(plane.normal).abs();
+        let height = normal.dot(self.origin) - F64s::splat(plane.offset) + slope * self.depth;
         let margin = plane.normal.abs().dot(Vec3::splat(self.margin));
-        let reach = slope.abs() * F64s::splat(self.half_depth) + F64s::splat(across + margin);
+        let reach = slope.abs() * self.half_depth + self.across.reach(plane.normal) + F64s::splat(margin);
         (height.le(-reach).bits(), height.ge(reach).bits())
     }
 
@@ -63,30 +106,23 @@ impl<I: Isa> Parts<I> {
         let (s, c0) = quadric.kind.coefficients();
         let along = vector(map, self.direction);
         let origin = point(map, self.origin);
-        let (depth, half_depth) = (F64s::splat(self.depth), F64s::splat(self.half_depth));
-        let at = |o: F64s<I>, d: F64s<I>| o + d * depth;
+        let at = |o: F64s<I>, d: F64s<I>| o + d * self.depth;
         let q = Vector::new(at(origin.x, along.x), at(origin.y, along.y), at(origin.z, along.z));
-        let along = along.map(|v| v * half_depth);
-        let sides = self.sides.map(|side| map.vector(side));
+        let along = along.map(|v| v * self.half_depth);
         // What the margin, and what rounding, may come to in local coordinates.
         let margin = Vec3::from(map.rows.map(|row| row.abs().dot(Vec3::splat(self.margin))));
-        let rounding = margin * CellBox::ROUNDING_IN_MARGINS;
-        let fixed = sides[0].abs() + sides[1].abs() + margin + rounding;
+        let extra = margin + margin * CellBox::ROUNDING_IN_MARGINS;
         let reach = Vector::new(
-            along.x.abs() + F64s::splat(fixed.x),
-            along.y.abs() + F64s::splat(fixed.y),
-            along.z.abs() + F64s::splat(fixed.z),
+            along.x.abs() + self.across.reach(map.rows[0]) + F64s::splat(extra.x),
+            along.y.abs() + self.across.reach(map.rows[1]) + F64s::splat(extra.y),
+            along.z.abs() + self.across.reach(map.rows[2]) + F64s::splat(extra.z),
         );
         // The mean value form: the parts are thin, and where they are long they are cut.
         let (s_lanes, c0, two) = (F64s::splat(s), F64s::splat(c0), F64s::splat(2.0));
         let value = q.x * q.x + q.y * q.y + s_lanes * (q.z * q.z) + c0;
         let slope = Vector::new(two * q.x, two * q.y, two * s_lanes * q.z);
-        let along_slope =
-            |v: Vec3| (slope.x * F64s::splat(v.x) + slope.y * F64s::splat(v.y) + slope.z * F64s::splat(v.z)).abs();
-        let extra = margin + rounding;
-        let linear = (slope.x * along.x + slope.y * along.y + slope.z * along.z).abs()
-            + along_slope(sides[0])
-            + along_slope(sides[1])
+        let linear = slope.dot(along).abs()
+            + self.across.change(map, slope)
             + slope.x.abs() * F64s::splat(extra.x)
             + slope.y.abs() * F64s::splat(extra.y)
             + slope.z.abs() * F64s::splat(extra.z);
@@ -119,7 +155,7 @@ impl Known {
 
     /// Finds out about a program of at most [`MAX_WORDS`] words.
     #[inline(always)]
-    pub fn learn<I: Isa>(&mut self, catalog: &Catalog, words: &[u32], parts: &Parts<I>) {
+    pub fn learn<I: Isa, A: Across<I>>(&mut self, catalog: &Catalog, words: &[u32], parts: &Parts<I, A>) {
         // Children come behind their operators.
         for at in (0..words.len().min(MAX_WORDS)).rev() {
             let (always, never) = match Word::decode(words[at]) {

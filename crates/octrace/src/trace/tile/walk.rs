@@ -7,11 +7,12 @@
 use super::PACKETS;
 use super::RayTile;
 use super::beam::Beam;
+use super::bundles::Bundles;
 use super::kernels::{Chunk, Cube, Stretch, bits_of};
 use super::lanes::{F64s, Isa, LANES, Number};
 use super::leaf::Slabs;
 use super::packet::{Origins, Packet};
-use super::program::{Solved, is_plain, is_short};
+use super::program::{Solved, is_plain};
 use super::prune::Known;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::Vec3;
@@ -98,10 +99,11 @@ pub(super) enum Lead {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, waiting, solved, slabs, chunk, .. } = tile;
+    let RayTile { packets, beam, bundles, waiting, solved, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
+        bundles,
         packets,
         scratch,
         open: 0,
@@ -114,7 +116,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &m
     walk.count_open();
     let bounded = scenery.program.outer == Constant::Everywhere(!scenery.wanted);
     if !bounded {
-        walk.before();
+        walk.before(lead);
     }
     match lead {
         Lead::Beam => walk.inside(waiting),
@@ -128,6 +130,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &m
 pub(super) struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     pub scenery: Scenery<'a>,
     pub beam: &'b Beam,
+    pub bundles: &'b mut Bundles,
     pub packets: &'b mut [Packet; PACKETS],
     pub scratch: &'b mut Scratch,
     /// Packets with rays that have met nothing so far.
@@ -205,6 +208,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let void = if self.scenery.wanted { CellWord::OUTSIDE } else { CellWord::INSIDE };
         let everywhere = (0.0, f64::INFINITY);
         waiting[0] = Waiting::root(self.scenery.octree);
+        let Octree { center, half, .. } = *self.scenery.octree;
+        self.bundles.gather::<I>(self.packets, near, Cube { center, half });
         let mut count = usize::from(waiting[0].word != void);
         let mut visit = None;
         while self.goes_on(&mut count, &mut visit) {
@@ -241,8 +246,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
                     let words = octree.program(offset);
                     match self.copy_in(words) {
                         Some(placed) => self.visit(placed, packets, cube, waiting, &mut count, &mut visit),
-                        None if is_short(words) => self.evaluate(words, packets, cube, everywhere),
-                        None => self.give_up_in(packets, cube, everywhere),
+                        None => self.leaf_of_stream(words, packets, cube, near),
                     }
                 }
                 Kind::Outside | Kind::Inside => self.give_up_in(packets, cube, everywhere),
