@@ -199,6 +199,31 @@ fn few_or_simple_or_turned_solids_are_not_shared() {
     assert_eq!(shared(&grid(&screw.rotate([30.0, 20.0, 10.0]), 64, 5.0)).stats().copies, 64);
 }
 
+/// A solid that is modelled far from its own origin is known there no better than that.
+#[test]
+fn copies_from_far_away_agree_too() {
+    for far in [1e3, 1e6, 1e9, 1e12] {
+        let solid = classic().translate([far, -far, 0.0]);
+        let place = |i: i32| [f64::from(i % 8) * 3.0 - far, f64::from(i / 8) * 3.0 + far, 0.1];
+        let solid = Solid::union((0..64).map(|i| solid.clone().translate(place(i))));
+        // Not peeled off with the rest: in a difference, the solid stays where it was modelled.
+        let carved = Solid::union((0..64).map(|i| {
+            let hole = Solid::sphere().scale([0.4; 3]).translate([far + 1.0, -far, 0.0]);
+            (classic().translate([far, -far, 0.0]) - hole).translate(place(i))
+        }));
+        for solid in [solid, carved] {
+            let (expected, tested) = (canonical(&solid), shared(&solid));
+            let mut scratch = Scratch::default();
+            for i in 0..400 {
+                let (x, y) = (f64::from(i % 20) * 1.2 - 1.0, f64::from(i / 20) * 1.2 - 1.0);
+                let ray = Ray::new([x, y, 9.0], [0.3, 0.2, -1.0]);
+                assert_eq!(tested.spans_with(&ray, &mut scratch), expected.spans(&ray), "{far} {ray:?}");
+            }
+            assert_eq!(scratch.counters.leaks, 0);
+        }
+    }
+}
+
 #[test]
 fn volumes_are_those_of_all_copies() {
     let solid = copies(49);

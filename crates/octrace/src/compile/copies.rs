@@ -146,7 +146,8 @@ fn kinds(census: &Census, operands: &mut [Operand], snap: f64) -> Vec<Kind> {
     let mut boxes: Vec<Option<Bounds>> = vec![None; operands.len()];
     for (kind, group) in &candidates {
         for &number in group {
-            boxes[number as usize] = Some(moved(&kind.program.bounds, operands[number as usize].map.translation));
+            let by = operands[number as usize].map.translation;
+            boxes[number as usize] = Some(reach_of(&kind.program.bounds, by));
         }
     }
     let is_clear = is_clear(operands, &boxes);
@@ -204,8 +205,8 @@ impl Kind {
     }
 }
 
-/// The box moved, and larger than any rounding may have what is in it: rays that miss it meet nothing.
-pub(super) fn moved(bounds: &Bounds, by: Vec3) -> Bounds {
+/// The box of a copy of a solid, larger than any rounding may have what is in it: rays that miss it meet nothing.
+pub(super) fn reach_of(bounds: &Bounds, by: Vec3) -> Bounds {
     let (min, max) = (bounds.min + by, bounds.max + by);
     let farthest = min.max_abs().max(max.max_abs()).max(by.max_abs());
     let off = Vec3::splat(1e-8 * bounds.size().max_abs() + 1e-12 * farthest);

@@ -1,6 +1,6 @@
 //! From solids to programs over faces: primitives become intersections of them. Surfaces are found for them later.
 
-use super::copies::{Kind, Operand, moved};
+use super::copies::{Kind, Operand, reach_of};
 use super::draft::{Draft, Op, Value};
 use super::face::Face;
 use super::{Leaf, Program};
@@ -72,6 +72,7 @@ pub(super) struct PendingMesh {
 pub(super) struct PendingCopy {
     pub kind: u32,
     pub offset: Vec3,
+    /// See [`Placed::bounds`](crate::surface::Placed).
     pub bounds: Bounds,
     pub first_leaf: u32,
 }
@@ -121,10 +122,16 @@ impl Lowering {
         // Inner parts win.
         self.leaves.extend(solid.lowering.leaves.iter().map(|leaf| Leaf { part: leaf.part.or(operand.part) }));
         let offset = operand.map.translation;
-        let bounds = moved(&solid.program.bounds, offset);
+        let Bounds { min, max } = solid.program.bounds;
+        let bounds = Bounds::new(min + offset, max + offset);
         let index = self.literals.len() as u32;
         self.literals.push(PendingLiteral { shape: Shape::Copy(self.copies.len() as u32), leaf });
-        self.copies.push(PendingCopy { kind, offset, bounds, first_leaf: leaf });
+        self.copies.push(PendingCopy {
+            kind,
+            offset,
+            bounds: reach_of(&solid.program.bounds, offset),
+            first_leaf: leaf,
+        });
         let whole = self.whole.literal(index, false);
         Lowered { whole, outer: Value::Constant(false), bounds, bounded: bounds }
     }

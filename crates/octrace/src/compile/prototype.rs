@@ -185,3 +185,39 @@ impl Catalog {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Constant, Copies, compile};
+    use super::*;
+    use crate::model::families::copies;
+
+    #[test]
+    fn numbers_beyond_the_catalogue_are_those_of_copies() {
+        let compiled = compile(&[copies(40)], 0.0, Copies::Shared);
+        let catalog = &compiled.catalog;
+        let prototype = &catalog.prototypes[0];
+        assert_eq!((catalog.prototypes.len(), prototype.copies, prototype.leaves), (1, 40, 5));
+        let Constant::Words(words) = &compiled.bodies[0].whole else { panic!("a program") };
+        let placed: Vec<&Placed> = words.iter().filter_map(|&word| catalog.placed_by(word)).collect();
+        assert_eq!(placed.len(), 40);
+        let mut surfaces = Vec::new();
+        for placed in placed {
+            for stored in prototype.literals.first..prototype.literals.first + prototype.literals.count {
+                let (there, here) =
+                    (catalog.literal(stored + prototype.literal_shift(placed.copy)), catalog.literal(stored));
+                assert_eq!((there.stored, there.offset), (here.stored, placed.offset));
+                assert_eq!(there.leaf, here.leaf + 5 * placed.copy);
+                let number = there.stored + there.surface_shift;
+                assert!(
+                    std::ptr::eq(catalog.surface(number).0, here.surface) && catalog.surface(number).1 == placed.offset
+                );
+                surfaces.push(number);
+            }
+        }
+        surfaces.sort_unstable();
+        surfaces.dedup();
+        assert_eq!(surfaces.len(), 40 * prototype.surfaces.count as usize, "all different");
+        assert!(surfaces[0] as usize >= catalog.surfaces.len());
+    }
+}
