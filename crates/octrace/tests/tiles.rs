@@ -82,6 +82,12 @@ fn compare_stream(bodies: &[Solid], octree: BuildOptions, rays: &[RayTo]) -> Res
             let alone = expected.first_body_hit(ray, *end, &mut Scratch::default());
             prop_assert_eq!(hit, alone, "{:?}, {:?} up to {}", backend, ray, end);
         }
+        let mut blocked = vec![false; rays.len()];
+        tested.blocked_into(rays, backend, &mut tile, &mut scratch, &mut blocked);
+        for (RayTo { ray, end }, blocked) in rays.iter().zip(blocked) {
+            let alone = expected.first_body_hit(ray, *end, &mut Scratch::default());
+            prop_assert_eq!(blocked, alone.is_some(), "{:?}, {:?} up to {}", backend, ray, end);
+        }
     }
     prop_assert_eq!(scratch.counters.leaks, 0);
     Ok(())

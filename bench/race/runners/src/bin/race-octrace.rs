@@ -105,10 +105,10 @@ impl Runner<'_> {
             shadows.clear();
             shadows.extend(pixels().filter_map(|(x, y)| self.to_light(left + x, top + y)));
             met.clear();
-            met.resize(shadows.len(), None);
-            self.tracer.first_hits_into(&shadows, Backend::best(), &mut tile, &mut scratch, &mut met);
+            met.resize(shadows.len(), false);
+            self.tracer.blocked_into(&shadows, Backend::best(), &mut tile, &mut scratch, &mut met);
             traced += shadows.len();
-            lit += met.iter().filter(|hit| hit.is_none()).count();
+            lit += met.iter().filter(|blocked| !**blocked).count();
         }
         std::hint::black_box(lit);
         traced as u64

@@ -34,6 +34,20 @@ pub(super) struct Bundles {
     end: Stored,
     /// How wide they are where they are widest; infinite for bundles that are not to be used.
     width: Stored,
+    state: State,
+    /// Nothing is looked for but in here.
+    root: Cube,
+}
+
+/// What is known of the bundles: it takes a while to find out, and few rays never need it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum State {
+    #[default]
+    Nothing,
+    /// What rays they have.
+    Gathered,
+    /// And how wide they are in an octree.
+    Measured,
 }
 
 /// The parameters with which bundles come through a cell, at most.
@@ -66,21 +80,42 @@ pub(super) fn bundles_of(packets: u32) -> u8 {
 }
 
 impl Bundles {
-    /// Takes the open rays of the packets together. The directions of all rays have the same `signs`; nothing is looked for
-    /// but in the cube.
+    /// There are other rays now.
+    pub fn forget(&mut self) {
+        self.state = State::Nothing;
+    }
+
+    /// The same rays go through the octree with that root.
+    pub fn enter(&mut self, root: Cube) {
+        self.root = root;
+        self.state = if self.state == State::Nothing { State::Nothing } else { State::Gathered };
+    }
+
+    /// Finds out what is to be known of the rays of the packets, if it is not known. Their directions have the same `signs`.
     #[inline(always)]
-    pub fn gather<I: Isa>(&mut self, packets: &[Packet; PACKETS], signs: usize, cube: Cube) {
-        let mut some = 0;
-        for (number, packet) in packets.iter().enumerate() {
-            some |= u32::from(packet.open != 0) << number;
+    pub fn know<I: Isa>(&mut self, packets: &[Packet; PACKETS], signs: usize) {
+        if self.state == State::Nothing {
+            self.gather::<I>(packets);
         }
+        if self.state != State::Measured {
+            self.measure::<I>(signs);
+        }
+        self.state = State::Measured;
+    }
+
+    #[inline(always)]
+    fn gather<I: Isa>(&mut self, packets: &[Packet; PACKETS]) {
         for axis in 0..3 {
             self.origin[axis] = Range::of::<I>(packets, |packet| &packet.origin[axis]);
             self.direction[axis] = Range::of::<I>(packets, |packet| &packet.direction[axis]);
             self.inverse[axis] = Range::of::<I>(packets, |packet| &packet.inverse[axis]);
         }
         self.end = Range::of::<I>(packets, |packet| &packet.t).high;
-        let Passage { t_out, .. } = self.passage::<I>(signs, cube, Vec3::ZERO);
+    }
+
+    #[inline(always)]
+    fn measure<I: Isa>(&mut self, signs: usize) {
+        let Passage { t_out, .. } = self.passage::<I>(signs, self.root, Vec3::ZERO);
         let (mut width, mut usual) = (F64s::<I>::zero(), t_out.is_finite());
         for axis in 0..3 {
             let extent = |range: &Range| F64s::<I>::load(&range.high) - F64s::load(&range.low);
@@ -88,8 +123,8 @@ impl Bundles {
             let Range { low, high } = &self.inverse[axis];
             usual = usual & F64s::load(low).is_finite() & F64s::load(high).is_finite();
         }
-        let usual = usual & Mask::from_bits(bundles_of(some)) & width.is_finite();
-        self.width = usual.select(width, F64s::infinity()).stored();
+        // Bundles without rays reach from infinity to infinity.
+        self.width = (usual & width.is_finite()).select(width, F64s::infinity()).stored();
     }
 
     /// The bundles that are to be used in cells with that half edge.
@@ -148,16 +183,16 @@ impl Bundles {
 }
 
 impl Range {
-    /// Of the open rays of each bundle.
+    /// Of the rays of each bundle that are followed together.
     #[inline(always)]
     fn of<I: Isa>(packets: &[Packet; PACKETS], what: impl Fn(&Packet) -> &Stored) -> Self {
         let mut range = Self::default();
         for (bundle, packets) in packets.chunks_exact(TOGETHER).enumerate() {
             let (mut low, mut high) = (F64s::<I>::infinity(), -F64s::<I>::infinity());
             for packet in packets {
-                let (open, v) = (Mask::from_bits(packet.open), F64s::load(what(packet)));
-                low = low.min(open.select(v, low));
-                high = high.max(open.select(v, high));
+                let (here, v) = (Mask::from_bits(packet.wanted & !packet.given_up), F64s::load(what(packet)));
+                low = low.min(here.select(v, low));
+                high = high.max(here.select(v, high));
             }
             let (low, high) = (low.stored().0, high.stored().0);
             let least = |a: f64, b: f64| if b < a { b } else { a };

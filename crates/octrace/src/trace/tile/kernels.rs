@@ -9,7 +9,7 @@ use super::walk::{Scenery, Walk};
 use crate::geom::Vec3;
 
 /// A cube.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cube {
     pub center: Vec3,
     pub half: f64,

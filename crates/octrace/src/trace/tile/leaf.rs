@@ -98,7 +98,10 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         }
         let narrow = match packets.count_ones() {
             0..STREAM_PRUNED_FOR => 0,
-            _ => bundles::packets_of(self.bundles.narrow::<I>(cube.half)),
+            _ => {
+                self.bundles.know::<I>(self.packets, signs);
+                bundles::packets_of(self.bundles.narrow::<I>(cube.half))
+            }
         };
         if packets & !narrow != 0 {
             self.evaluate(words, packets & !narrow, cube, everywhere);

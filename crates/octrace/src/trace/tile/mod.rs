@@ -84,6 +84,7 @@ pub struct RayTile {
     sorted: Sorted,
     eights: Vec<EightRays>,
     found: Vec<EightHits>,
+    met: Vec<u8>,
 }
 
 impl Default for RayTile {
@@ -101,6 +102,7 @@ impl Default for RayTile {
             sorted: Sorted::default(),
             eights: Vec::new(),
             found: Vec::new(),
+            met: Vec::new(),
         }
     }
 }

@@ -61,21 +61,37 @@ impl Tracer {
     ) {
         let mut eights = std::mem::take(&mut tile.eights);
         let mut found = std::mem::take(&mut tile.found);
-        eights.clear();
-        eights.extend(rays.chunks(LANES).map(|rays| {
-            let mut eight = EightRays::NONE;
-            for (lane, RayTo { ray, end }) in rays.iter().enumerate() {
-                eight.put(lane, ray, *end);
-            }
-            eight.fill_up();
-            eight
-        }));
+        by_eights(rays, &mut eights);
         found.resize(eights.len(), EightHits::default());
         self.eight_hits(&eights, backend, tile, scratch, &mut found);
         for index in 0..rays.len() {
             hits[index] = found[index / LANES].hit(index % LANES);
         }
         (tile.eights, tile.found) = (eights, found);
+    }
+
+    /// Which rays meet any body at all, for a slice as long as `rays`: whether [`first_hits_into`](Self::first_hits_into) has
+    /// a hit for each, in less time. It is what shadows ask for.
+    ///
+    /// # Panics
+    /// If the slice is shorter.
+    pub fn blocked_into(
+        &self,
+        rays: &[RayTo],
+        backend: Backend,
+        tile: &mut RayTile,
+        scratch: &mut Scratch,
+        blocked: &mut [bool],
+    ) {
+        let mut eights = std::mem::take(&mut tile.eights);
+        let mut met = std::mem::take(&mut tile.met);
+        by_eights(rays, &mut eights);
+        met.resize(eights.len(), 0);
+        self.eights_met(&eights, backend, tile, scratch, &mut met);
+        for index in 0..rays.len() {
+            blocked[index] = met[index / LANES] >> (index % LANES) & 1 != 0;
+        }
+        (tile.eights, tile.met) = (eights, met);
     }
 
     /// As [`first_hits_into`](Self::first_hits_into), by eights.
@@ -241,6 +257,7 @@ impl Task for TraceStream<'_, '_, '_> {
 /// Follows the rays of a tile through all bodies.
 #[inline(always)]
 fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
+    tile.bundles.forget();
     for (number, body) in tracer.bodies.iter().enumerate() {
         let Some(octree) = body.octree() else { continue };
         for packet in &mut tile.packets {
@@ -266,4 +283,17 @@ fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &m
             }
         }
     }
+}
+
+/// Puts rays together, eight by eight.
+fn by_eights(rays: &[RayTo], eights: &mut Vec<EightRays>) {
+    eights.clear();
+    eights.extend(rays.chunks(LANES).map(|rays| {
+        let mut eight = EightRays::NONE;
+        for (lane, RayTo { ray, end }) in rays.iter().enumerate() {
+            eight.put(lane, ray, *end);
+        }
+        eight.fill_up();
+        eight
+    }));
 }

@@ -209,7 +209,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let everywhere = (0.0, f64::INFINITY);
         waiting[0] = Waiting::root(self.scenery.octree);
         let Octree { center, half, .. } = *self.scenery.octree;
-        self.bundles.gather::<I>(self.packets, near, Cube { center, half });
+        self.bundles.enter(Cube { center, half });
         let mut count = usize::from(waiting[0].word != void);
         let mut visit = None;
         while self.goes_on(&mut count, &mut visit) {
