@@ -1,7 +1,7 @@
 //! The CSG tree in words. Trees may be deep beyond any stack, so nothing here recurses.
 
 use octrace::model::Node;
-use octrace::{BoolOp, Primitive, Solid};
+use octrace::{BoolOp, Primitive, Profile, Solid};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -81,6 +81,8 @@ pub fn name(node: &Node) -> &'static str {
             Primitive::Cone { .. } => "cone",
             Primitive::Torus { .. } => "torus",
             Primitive::Polyhedron(_) => "polyhedron",
+            Primitive::Prism { .. } => "prism",
+            Primitive::Revolution(_) => "revolution",
         },
         Node::Transform(..) => "transform",
         Node::Combine(BoolOp::Union, _) => "union",
@@ -88,6 +90,10 @@ pub fn name(node: &Node) -> &'static str {
         Node::Combine(BoolOp::Difference, _) => "difference",
         Node::Part(..) => "part",
     }
+}
+
+fn edges(profile: &Profile) -> usize {
+    profile.contours().iter().map(Vec::len).sum()
 }
 
 fn line(node: &Node) -> String {
@@ -98,6 +104,9 @@ fn line(node: &Node) -> String {
             Primitive::Cone { top } => format!("{name} top={top}"),
             Primitive::Torus { minor } => format!("{name} minor={minor}"),
             Primitive::Polyhedron(p) => format!("{name} of {} faces", p.faces().len()),
+            Primitive::Prism { profile, top: 1.0 } => format!("{name} of {} edges", edges(profile)),
+            Primitive::Prism { profile, top } => format!("{name} of {} edges top={top}", edges(profile)),
+            Primitive::Revolution(profile) => format!("{name} of {} edges", edges(profile)),
             _ => name.to_owned(),
         },
         Node::Transform(map, _) => {

@@ -58,9 +58,9 @@ pub mod surface;
 pub mod trace;
 pub mod traverse;
 
-pub use geom::{Affine, Bounds, Hit, Ray, Span, Spans, Vec3};
+pub use geom::{Affine, Bounds, Hit, Ray, Span, Spans, Vec2, Vec3};
 pub use model::{BoolOp, Camera, Light, Material, Part, PartId, Projection, Rgb, Scene, Solid};
-pub use primitive::{Polyhedron, PolyhedronError, Primitive};
+pub use primitive::{Contour, Curve, Edge, Polyhedron, PolyhedronError, Primitive, Profile, ProfileError};
 pub use trace::{Accel, Tracer, TracerOptions};
 
 /// The examples of the README are tested with those of the documentation.

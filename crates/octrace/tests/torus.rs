@@ -3,13 +3,19 @@
 mod common;
 
 use common::cases;
-use octrace::surface::{CellBox, Side, Torus};
+use octrace::surface::{CellBox, Side, Torus, TorusKind};
 use octrace::{Affine, Ray, Vec3};
 use proptest::prelude::*;
 
-/// How far a point in the torus' coordinates lies outside the tube; negative inside. The definition itself.
-fn outside_by(minor: f64, p: Vec3) -> f64 {
-    libm::hypot(libm::hypot(p.x, p.y) - 1.0, p.z) - minor
+/// How far a point in the torus' coordinates lies outside the tube, or the inner surface; negative inside. The definition
+/// itself.
+fn outside_by(kind: TorusKind, minor: f64, p: Vec3) -> f64 {
+    let ring = if kind == TorusKind::Outer { 1.0 } else { -1.0 };
+    libm::hypot(libm::hypot(p.x, p.y) - ring, p.z) - minor
+}
+
+fn kind() -> impl Strategy<Value = TorusKind> {
+    prop_oneof![2 => Just(TorusKind::Outer), 1 => Just(TorusKind::Inner)]
 }
 
 fn minor() -> impl Strategy<Value = f64> {
@@ -38,26 +44,27 @@ fn direction() -> impl Strategy<Value = Vec3> {
 }
 
 /// A line through a point on or near the surface, in many cases tangent to it.
-fn line(minor: f64) -> impl Strategy<Value = (Vec3, Vec3)> {
+fn line(kind: TorusKind, minor: f64) -> impl Strategy<Value = (Vec3, Vec3)> {
     let angle = || prop_oneof![(0..24).prop_map(|i| f64::from(i) * 15.0), 0.0..360.0];
     let off = prop_oneof![Just(0.0), Just(1e-15), Just(-1e-12), Just(1e-9), Just(-1e-5), -1.0..1.0];
     (angle(), angle(), off, direction(), any::<bool>()).prop_map(move |(around, tube, off, direction, tangent)| {
         let turn = Affine::rotation_deg(Vec3::Z * around);
         let (sin, cos) = octrace::geom::sin_cos_deg(tube);
         let normal = turn.vector(Vec3::new(cos, 0.0, sin));
-        let through = turn.vector(Vec3::X) + normal * (minor * (1.0 + off));
+        let ring = if kind == TorusKind::Outer { 1.0 } else { -1.0 };
+        let through = turn.vector(Vec3::X * ring) + normal * (minor * (1.0 + off));
         let along = direction - normal * normal.dot(direction);
         let along = if tangent && along.length() > 1e-3 { along } else { direction };
         (through, along)
     })
 }
 
-fn torus_and_line() -> impl Strategy<Value = (f64, Vec3, Vec3, f64)> {
+fn torus_and_line() -> impl Strategy<Value = (TorusKind, f64, Vec3, Vec3)> {
     let back = prop_oneof![Just(0.0), Just(1.0), Just(64.0), Just(1000.0), -64.0..64.0];
-    minor().prop_flat_map(move |minor| {
-        (Just(minor), line(minor), back.clone()).prop_map(|(minor, (through, along), back)| {
+    (kind(), minor()).prop_flat_map(move |(kind, minor)| {
+        (line(kind, minor), back.clone()).prop_map(move |((through, along), back)| {
             let back = back * (1.0 + minor) / along.length();
-            (minor, through - along * back, along, back)
+            (kind, minor, through - along * back, along)
         })
     })
 }
@@ -80,9 +87,9 @@ proptest! {
 
     /// Every root is on the surface, and between roots the line is on the side that they say.
     #[test]
-    fn roots_are_on_the_surface_and_complete((minor, origin, along, _) in torus_and_line(), map in placement()) {
+    fn roots_are_on_the_surface_and_complete((kind, minor, origin, along) in torus_and_line(), map in placement()) {
         let to_local = map.inverse().expect("placements are invertible");
-        let torus = Torus { minor, to_local };
+        let torus = Torus { kind, minor, to_local };
         let ray = Ray::new(map.point(origin), map.vector(along));
         let crossings = torus.crossings(&ray);
         let params = crossings.params();
@@ -93,7 +100,7 @@ proptest! {
         let plain = if map == Affine::IDENTITY { 1.0 } else { 50.0 };
         let bound = plain * (1e-12 * (1.0 + minor) + 1e-13 * origin.length());
         for &t in params {
-            let off = outside_by(minor, to_local.point(ray.at(t)));
+            let off = outside_by(kind, minor, to_local.point(ray.at(t)));
             prop_assert!(off.abs() <= bound, "root at {} is off by {:e}, more than {:e}", t, off, bound);
         }
         // Samples all along the torus, and some next to every root.
@@ -103,7 +110,7 @@ proptest! {
         let close = params.iter().flat_map(|&t| [-1e-3, -1e-6, 1e-6, 1e-3].map(|d| t + d * minor / length));
         for t in even.chain(close) {
             let inside = params.iter().filter(|&&p| p <= t).count() % 2 == 1;
-            let off = outside_by(minor, to_local.point(ray.at(t)));
+            let off = outside_by(kind, minor, to_local.point(ray.at(t)));
             if off.abs() > bound {
                 prop_assert_eq!(off < 0.0, inside, "at {}, {:e} off, roots {:?}", t, off, params);
             }
@@ -113,11 +120,11 @@ proptest! {
     /// A cell said to be outside or inside has no point that is not.
     #[test]
     fn classification_is_conservative(
-        (minor, (through, _)) in minor().prop_flat_map(|minor| (Just(minor), line(minor))),
+        (kind, minor, (through, _)) in (kind(), minor()).prop_flat_map(|(kind, minor)| (Just(kind), Just(minor), line(kind, minor))),
         map in placement(), beside in unit_cube(), half in 1e-3..1.0,
         samples in prop::collection::vec(unit_cube(), 20),
     ) {
-        let torus = Torus { minor, to_local: map.inverse().expect("placements are invertible") };
+        let torus = Torus { kind, minor, to_local: map.inverse().expect("placements are invertible") };
         let half = half * minor.min(2.0);
         let cell = CellBox::new(map.point(through) + beside * (2.0 * half), Vec3::splat(half));
         let side = torus.classify(&cell);
@@ -125,7 +132,7 @@ proptest! {
         let grid = steps().flat_map(|x| steps().flat_map(move |y| steps().map(move |z| Vec3::new(x, y, z))));
         for u in grid.chain(samples) {
             let p = cell.center + u * half;
-            let off = outside_by(minor, torus.to_local.point(p));
+            let off = outside_by(kind, minor, torus.to_local.point(p));
             prop_assert!(side != Side::Outside || off >= -1e-12, "{:?} is inside by {:e}", p, -off);
             prop_assert!(side != Side::Inside || off <= 1e-12, "{:?} is outside by {:e}", p, off);
         }
@@ -135,7 +142,7 @@ proptest! {
 /// Classification that is too cautious would cost octree cells: of small cells off the surface, next to none may be.
 #[test]
 fn small_cells_off_the_surface_are_told() {
-    let torus = Torus { minor: 0.5, to_local: Affine::IDENTITY };
+    let torus = Torus { kind: TorusKind::Outer, minor: 0.5, to_local: Affine::IDENTITY };
     let (half, reach) = (0.02, 2.0);
     let steps = (reach / half) as i32;
     let (mut crossing, mut surface) = (0, 0);
@@ -145,7 +152,7 @@ fn small_cells_off_the_surface_are_told() {
             crossing += u32::from(torus.classify(&CellBox::new(center, Vec3::splat(half / 2.0))) == Side::Crossing);
             let corners = (0..8).map(|i| {
                 let side = |bit: i32| if i & bit == 0 { -half / 2.0 } else { half / 2.0 };
-                outside_by(0.5, center + Vec3::new(side(1), side(2), side(4)))
+                outside_by(TorusKind::Outer, 0.5, center + Vec3::new(side(1), side(2), side(4)))
             });
             let signs: Vec<bool> = corners.map(|off| off < 0.0).collect();
             surface += u32::from(signs.iter().any(|&s| s != signs[0]));

@@ -53,6 +53,17 @@ pub fn primitive(sheet: &mut Sheet, (x, y): (f64, f64), primitive: &Primitive) {
             let hole = Ink::both(palette::PAPER, palette::SOLID, 1.4);
             sheet.path(&format!("M{} a8 3.4 0 1 0 16 0 a8 3.4 0 1 0 -16 0", at(-8.0, 0.0)), hole);
         }
+        Primitive::Prism { .. } => {
+            let side = format!("M{} v9 h11 v7 h19 v-9 h-19 v-7 Z", at(-15.0, 0.0));
+            let face = format!("M{} h11 v10 h19 v7 h-30 Z", at(-15.0, -10.0));
+            sheet.path(&side, body);
+            sheet.path(&face, body);
+        }
+        Primitive::Revolution(_) => {
+            let side = "c14 9 -4 12 4 26 h16 c8 -14 -10 -17 4 -26";
+            sheet.path(&format!("M{} {side} Z", at(-12.0, -13.0)), body);
+            sheet.path(&format!("M{} a12 3.6 0 1 0 24 0 a12 3.6 0 1 0 -24 0", at(-12.0, -13.0)), body);
+        }
         Primitive::Polyhedron(_) => {
             let rim = [(0.0, -17.0), (15.0, -7.0), (12.0, 11.0), (-3.0, 16.0), (-15.0, 5.0), (-11.0, -10.0)];
             let corners: Vec<String> = rim.iter().map(|&(dx, dy)| at(dx, dy)).collect();

@@ -1,7 +1,7 @@
 //! Solids in words.
 
 use octrace::model::Node;
-use octrace::{Affine, BoolOp, Primitive, Solid};
+use octrace::{Affine, BoolOp, Primitive, Profile, Solid};
 use std::fmt::Write;
 
 /// A solid in words, on one line.
@@ -21,6 +21,12 @@ fn write_solid(solid: &Solid, out: &mut String) {
             Primitive::HalfSpace => out.push_str("halfspace"),
             Primitive::Cone { top } => write!(out, "cone({top})").expect("strings take all"),
             Primitive::Torus { minor } => write!(out, "torus({minor})").expect("strings take all"),
+            Primitive::Prism { profile, top } => {
+                write!(out, "prism({} edges, top {top})", edges(profile)).expect("strings take all");
+            }
+            Primitive::Revolution(profile) => {
+                write!(out, "revolution({} edges)", edges(profile)).expect("strings take all");
+            }
             Primitive::Polyhedron(p) => {
                 write!(out, "polyhedron({} points, {} faces)", p.points().len(), p.faces().len())
                     .expect("strings take all");
@@ -47,6 +53,10 @@ fn write_solid(solid: &Solid, out: &mut String) {
             out.push(')');
         }
     }
+}
+
+fn edges(profile: &Profile) -> usize {
+    profile.contours().iter().map(Vec::len).sum()
 }
 
 fn write_map(map: &Affine, out: &mut String) {

@@ -3,7 +3,7 @@
 use super::copies::FEWEST;
 use crate::geom::{Affine, Vec3};
 use crate::model::{BoolOp, Node, Solid};
-use crate::primitive::Primitive;
+use crate::primitive::{Primitive, Profile};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::Hasher;
 
@@ -50,7 +50,10 @@ impl Census {
         map.rows.iter().for_each(|&row| hash_vector(&mut hasher, row));
         match solid.node() {
             Node::Combine(BoolOp::Union, _) => hasher.write_u64(self.hash(solid)),
-            Node::Combine(..) | Node::Primitive(Primitive::Polyhedron(_)) => glance(&mut hasher, solid),
+            Node::Combine(..)
+            | Node::Primitive(Primitive::Polyhedron(_) | Primitive::Prism { .. } | Primitive::Revolution(_)) => {
+                glance(&mut hasher, solid);
+            }
             _ => return None,
         }
         Some(hasher.finish())
@@ -137,6 +140,12 @@ fn hash_vector(hasher: &mut FxHasher, v: Vec3) {
     v.to_array().iter().for_each(|c| hasher.write_u64((c + 0.0).to_bits()));
 }
 
+/// Corners only: they say nearly all.
+fn hash_profile(hasher: &mut FxHasher, profile: &Profile) {
+    let corners = profile.contours().iter().flatten().map(|edge| edge.from);
+    corners.for_each(|corner| hash_vector(hasher, Vec3::new(corner.x, corner.y, 0.0)));
+}
+
 fn hash_primitive(hasher: &mut FxHasher, primitive: &Primitive) {
     let (kind, size) = match primitive {
         Primitive::Block => (1, 0.0),
@@ -148,6 +157,14 @@ fn hash_primitive(hasher: &mut FxHasher, primitive: &Primitive) {
         Primitive::Polyhedron(polyhedron) => {
             polyhedron.points().iter().for_each(|&point| hash_vector(hasher, point));
             (7, polyhedron.faces().len() as f64)
+        }
+        Primitive::Prism { profile, top } => {
+            hash_profile(hasher, profile);
+            (8, *top)
+        }
+        Primitive::Revolution(profile) => {
+            hash_profile(hasher, profile);
+            (9, 0.0)
         }
     };
     hasher.write_u8(kind);

@@ -1,7 +1,7 @@
 //! Faces of primitives, where they stand: what wants a surface.
 
 use crate::geom::{Affine, Bounds, Vec3};
-use crate::surface::{Plane, QuadricKind};
+use crate::surface::{Plane, QuadricKind, TorusKind};
 
 /// A face that wants a surface.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub(super) enum Face {
     /// A quadric patch; `map` takes the unit quadric to the scene, the patch lies between the two local heights.
     Quadric { kind: QuadricKind, map: Affine, to_local: Affine, heights: (f64, f64) },
     /// A torus; `map` takes its own coordinates to the scene.
-    Torus { minor: f64, map: Affine, to_local: Affine },
+    Torus { kind: TorusKind, minor: f64, map: Affine, to_local: Affine },
 }
 
 /// The corners of a regular pentagon. Five points fix a conic.
@@ -55,9 +55,17 @@ impl Face {
                 let (low, high) = *heights;
                 room.extend(FIVE.iter().map(|&p| at(p, low)).chain([0, 2, 3].map(|i| at(FIVE[i], high))));
             }
-            Self::Torus { minor, map, .. } => {
+            Self::Torus { kind, minor, map, .. } => {
                 let around = |(c, s): (f64, f64)| {
-                    let tube = [(1.0 + minor, 0.0), (1.0, *minor), (1.0, -minor), (1.0 - minor, 0.0)];
+                    let tube = match kind {
+                        TorusKind::Outer => [(1.0 + minor, 0.0), (1.0, *minor), (1.0, -minor), (1.0 - minor, 0.0)],
+                        TorusKind::Inner => {
+                            let (radius, tip) = (minor - 1.0, ((minor - 1.0) * (minor + 1.0)).sqrt());
+                            // At a third of the height the radius is this.
+                            let third = ((minor * minor) - tip * tip / 9.0).sqrt() - 1.0;
+                            [(radius, 0.0), (third, tip / 3.0), (third, -tip / 3.0), (0.0, tip)]
+                        }
+                    };
                     // Of a spindle, what is beyond the axis is no part of the surface.
                     let tube = tube.into_iter().filter(|(radius, _)| *radius > 0.0);
                     tube.map(move |(radius, z)| map.point(Vec3::new(c * radius, s * radius, z)))

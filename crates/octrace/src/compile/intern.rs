@@ -108,9 +108,9 @@ impl<'a> Interner<'a> {
             Face::Plane { plane, corners } => self.plane(plane, corners),
             Face::Unbounded { plane } => self.plane(plane, &self.corners_of(plane)),
             Face::Quadric { kind, map, to_local, .. } => self.quadric(*kind, map, *to_local, samples),
-            Face::Torus { minor, map, to_local } => {
-                let place = Place { kind: 4, at: (map.translation - self.center).to_array(), extra: 0.0 };
-                self.curved(Surface::Torus(Torus { minor: *minor, to_local: *to_local }), place, samples)
+            Face::Torus { kind, minor, map, to_local } => {
+                let place = Place { kind: 4 + *kind as u8, at: (map.translation - self.center).to_array(), extra: 0.0 };
+                self.curved(Surface::Torus(Torus { kind: *kind, minor: *minor, to_local: *to_local }), place, samples)
             }
         }
     }
@@ -263,6 +263,7 @@ impl<'a> Interner<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::TorusKind;
 
     fn square(z: f64, tilt: f64, size: f64) -> Face {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
@@ -333,7 +334,12 @@ mod tests {
 
     #[test]
     fn tori_that_look_the_same_are_one() {
-        let torus = |minor: f64, map: Affine| Face::Torus { minor, map, to_local: map.inverse().unwrap() };
+        let torus = |minor: f64, map: Affine| Face::Torus {
+            kind: TorusKind::Outer,
+            minor,
+            map,
+            to_local: map.inverse().unwrap(),
+        };
         let at = |turn: f64, size: f64| {
             Affine::translation(Vec3::new(0.1, 0.2, 0.3))
                 * Affine::rotation_deg(Vec3::new(30.0, 0.0, 0.0))

@@ -6,6 +6,7 @@ mod clear;
 mod copies;
 mod draft;
 mod face;
+mod faces;
 mod intern;
 mod items;
 mod known;
@@ -15,6 +16,7 @@ mod prototype;
 mod repeats;
 mod simplify;
 mod split;
+mod swept;
 mod text;
 mod words;
 

@@ -2,7 +2,8 @@
 
 use super::PartId;
 use crate::geom::{Affine, Vec3};
-use crate::primitive::Primitive;
+use crate::primitive::{Primitive, Profile};
+use std::collections::HashMap;
 use std::ops::{Add, BitAnd, BitOr, Sub};
 use std::sync::Arc;
 
@@ -74,6 +75,17 @@ impl Solid {
         Self::primitive(Primitive::HalfSpace)
     }
 
+    /// What is above a profile in the xy plane, up to z = 1.
+    pub fn prism(profile: impl Into<Arc<Profile>>) -> Self {
+        Self::primitive(Primitive::Prism { profile: profile.into(), top: 1.0 })
+    }
+
+    /// What a profile sweeps around the z axis: its x is the distance from the axis, its y is z. What it has to the left of its
+    /// y axis is cut off.
+    pub fn revolution(profile: impl Into<Arc<Profile>>) -> Self {
+        Self::primitive(Primitive::Revolution(profile.into()))
+    }
+
     /// What is in any of the solids; empty for none.
     pub fn union(solids: impl IntoIterator<Item = Solid>) -> Self {
         Self::combine(BoolOp::Union, solids)
@@ -128,6 +140,29 @@ impl Solid {
     /// The solid with every leaf that belongs to no part yet put into `part`.
     pub fn part(self, part: PartId) -> Self {
         Self(Arc::new(Node::Part(part, self)))
+    }
+
+    /// The solid with no leaf belonging to any part. Trees that are shared stay shared.
+    pub fn unpainted(&self) -> Self {
+        fn strip(solid: &Solid, done: &mut HashMap<usize, Solid>) -> Solid {
+            const RED_ZONE: usize = 64 << 10;
+            const SEGMENT: usize = 4 << 20;
+            if let Some(known) = done.get(&solid.id()) {
+                return known.clone();
+            }
+            let bare = stacker::maybe_grow(RED_ZONE, SEGMENT, || match solid.node() {
+                Node::Empty | Node::Primitive(_) => solid.clone(),
+                Node::Transform(map, child) => Solid(Arc::new(Node::Transform(*map, strip(child, done)))),
+                Node::Part(_, child) => strip(child, done),
+                Node::Combine(op, children) => {
+                    let children = children.iter().map(|child| strip(child, done)).collect();
+                    Solid(Arc::new(Node::Combine(*op, children)))
+                }
+            });
+            done.insert(solid.id(), bare.clone());
+            bare
+        }
+        strip(self, &mut HashMap::new())
     }
 
     /// The topmost node of the tree.

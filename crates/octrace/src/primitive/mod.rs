@@ -3,10 +3,13 @@
 mod bvh;
 mod mesh;
 mod polyhedron;
+mod profile;
 
 pub(crate) use bvh::Bvh;
 pub use mesh::{Crossing, Mesh, MovedFace, SurfaceRef};
 pub use polyhedron::{FacePlane, Polyhedron, PolyhedronError, Triangle};
+pub use profile::{Contour, Curve, Edge, Profile, ProfileError};
+pub(crate) use profile::{Join, Outline, Step};
 
 use crate::geom::{Affine, Bounds, Vec3};
 use std::sync::Arc;
@@ -34,6 +37,17 @@ pub enum Primitive {
     },
     /// A closed polyhedron, convex or not.
     Polyhedron(Arc<Polyhedron>),
+    /// What is above the profile in the xy plane, up to z = 1; on the way it is scaled about the z axis, by 1 at z = 0 and by
+    /// `top` at z = 1, `0 <= top <= 1`.
+    Prism {
+        /// The base.
+        profile: Arc<Profile>,
+        /// Scale at z = 1.
+        top: f64,
+    },
+    /// What a profile sweeps around the z axis: its x is the distance from the axis, its y is z. What it has to the left of its
+    /// y axis is cut off.
+    Revolution(Arc<Profile>),
 }
 
 impl From<Polyhedron> for Primitive {
@@ -53,6 +67,8 @@ impl Primitive {
         let thin = match self {
             Self::HalfSpace => return false,
             Self::Torus { minor } => *minor < 1.0 / Self::LONGEST,
+            Self::Revolution(profile) => profile.bounds().1.x < 1.0 / Self::LONGEST,
+            Self::Prism { top, .. } => !(0.0..=1.0).contains(top),
             _ => false,
         };
         let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
@@ -88,6 +104,19 @@ impl Primitive {
                 Bounds::new(map.translation - extent, map.translation + extent)
             }
             Self::Polyhedron(p) => Bounds::around(p.points().iter().map(|&q| map.point(q))),
+            Self::Prism { profile, top } => {
+                let at = |z: f64, scale: f64| profile.hull().map(move |p| Vec3::new(p.x * scale, p.y * scale, z));
+                Bounds::around(at(0.0, 1.0).chain(at(1.0, *top)).map(|p| map.point(p)))
+            }
+            Self::Revolution(profile) => {
+                let (low, high) = profile.bounds();
+                if high.x <= 0.0 {
+                    return Bounds::EMPTY;
+                }
+                let end = |z: f64| map.translation + map.column(2) * z;
+                let around = |p: Vec3| Bounds::new(p - disc(high.x), p + disc(high.x));
+                around(end(low.y)).union(around(end(high.y)))
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Boxes around the two sides of a surface.
 
-use super::{Plane, Quadric, QuadricKind, Surface, Torus};
+use super::{Plane, Quadric, QuadricKind, Surface, Torus, TorusKind};
 use crate::geom::{Affine, Bounds, Vec3};
 
 impl Surface {
@@ -49,9 +49,19 @@ impl Quadric {
 
 impl Torus {
     fn extent(&self) -> Bounds {
-        let outer = 1.0 + self.minor;
-        let reach = |row: Vec3| (row.x * row.x + row.y * row.y).sqrt() + self.minor * row.length();
-        around(&self.to_local, reach, Vec3::new(outer, outer, self.minor))
+        let flat = |row: Vec3| (row.x * row.x + row.y * row.y).sqrt();
+        match self.kind {
+            TorusKind::Outer => {
+                let outer = 1.0 + self.minor;
+                around(&self.to_local, |row| flat(row) + self.minor * row.length(), Vec3::new(outer, outer, self.minor))
+            }
+            TorusKind::Inner => {
+                // In a cylinder, from tip to tip.
+                let outer = (self.minor - 1.0).max(0.0);
+                let tip = (outer * (self.minor + 1.0)).sqrt();
+                around(&self.to_local, |row| flat(row) * outer + row.z.abs() * tip, Vec3::new(outer, outer, tip))
+            }
+        }
     }
 }
 
@@ -86,7 +96,8 @@ mod tests {
             for surface in [
                 Surface::Quadric(Quadric { kind: QuadricKind::Sphere, to_local }),
                 Surface::Quadric(Quadric { kind: QuadricKind::Cylinder, to_local }),
-                Surface::Torus(Torus { minor: 0.25, to_local }),
+                Surface::Torus(Torus { kind: TorusKind::Outer, minor: 0.25, to_local }),
+                Surface::Torus(Torus { kind: TorusKind::Inner, minor: 2.0, to_local }),
             ] {
                 let (bounds, _) = surface.extents();
                 let mut touched = Bounds::EMPTY;

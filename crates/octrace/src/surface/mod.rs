@@ -18,7 +18,7 @@ pub use octants::{OctantSides, Octants};
 pub use placed::Placed;
 pub use plane::Plane;
 pub use quadric::{Quadric, QuadricKind};
-pub use torus::Torus;
+pub use torus::{Torus, TorusKind};
 
 use crate::geom::{Ray, Vec3};
 use crate::primitive::{Crossing, Mesh};
@@ -77,7 +77,7 @@ pub enum Surface {
     Plane(Plane),
     /// Ellipsoid, elliptic cylinder or elliptic double cone.
     Quadric(Quadric),
-    /// Torus, ring or spindle.
+    /// Torus, ring or spindle, or the inner surface of a spindle.
     Torus(Torus),
     /// The boundary of a polyhedron that is not convex. Its faces lie in planes that are surfaces too.
     Mesh(Arc<Mesh>),
@@ -130,9 +130,8 @@ impl Surface {
         match self {
             Self::Plane(_) | Self::Quadric(_) | Self::Torus(_) | Self::Placed(_) => (own, false),
             Self::Mesh(mesh) => {
-                let toggles = mesh_toggles(mesh, all, ray);
-                let seen = toggles.iter().find(|toggle| toggle.t == t && toggle.entering == entering);
-                let face = mesh.surface(seen.map_or(0, |toggle| toggle.triangle));
+                let seen = mesh.triangle_at(ray, |surface| plane_t(all, surface, ray), t, entering);
+                let face = mesh.surface(seen.unwrap_or(0));
                 (face.surface, face.flipped)
             }
         }
@@ -170,13 +169,17 @@ impl Surface {
     }
 }
 
-fn mesh_toggles(mesh: &Mesh, all: &[Surface], ray: &Ray) -> Vec<Crossing> {
-    let mut toggles = Vec::new();
-    let plane_t = |surface: u32| match &all[surface as usize] {
+/// Where the ray meets the plane with that number; NaN where it does not.
+fn plane_t(all: &[Surface], surface: u32, ray: &Ray) -> f64 {
+    match &all[surface as usize] {
         Surface::Plane(plane) => plane.crossings(ray).params().first().map_or(f64::NAN, |&t| t),
         _ => f64::NAN,
-    };
-    mesh.toggles(ray, plane_t, &mut toggles);
+    }
+}
+
+fn mesh_toggles(mesh: &Mesh, all: &[Surface], ray: &Ray) -> Vec<Crossing> {
+    let mut toggles = Vec::new();
+    mesh.toggles(ray, |surface| plane_t(all, surface, ray), &mut toggles);
     for toggle in &mut toggles {
         // Turns -0 into 0: equal parameters shall have equal bits.
         toggle.t += 0.0;

@@ -275,7 +275,7 @@ impl Quadric {
 mod tests {
     use super::*;
     use crate::geom::Affine;
-    use crate::surface::Torus;
+    use crate::surface::{Torus, TorusKind};
 
     /// Surfaces of all kinds, along the axes and across them.
     fn surfaces() -> Vec<Surface> {
@@ -286,7 +286,8 @@ mod tests {
             for kind in [QuadricKind::Sphere, QuadricKind::Cylinder, QuadricKind::Cone] {
                 surfaces.push(Surface::Quadric(Quadric { kind, to_local }));
             }
-            surfaces.push(Surface::Torus(Torus { minor: 0.5, to_local }));
+            surfaces.push(Surface::Torus(Torus { kind: TorusKind::Outer, minor: 0.5, to_local }));
+            surfaces.push(Surface::Torus(Torus { kind: TorusKind::Inner, minor: 2.0, to_local }));
             let normal = to_local.vector(Vec3::X).normalized().expect("a direction");
             surfaces.push(Surface::Plane(Plane { normal, offset: 0.25 }));
         }

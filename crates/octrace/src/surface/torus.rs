@@ -4,10 +4,31 @@ use super::{CellBox, Crossings, Side};
 use crate::geom::{Affine, Ray, Vec3};
 use crate::num::{bracketed_root, cubic_roots};
 
-/// A torus: in its own coordinates, all points nearer than `minor` to the circle of radius 1 about the z axis in the plane
-/// z = 0. So `minor > 1` is the solid that the ball sweeps, without the lens-shaped surface inside it.
+/// Which part of a torus' surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TorusKind {
+    /// What the ball sweeps: all points nearer than `minor` to the circle of radius 1 about the z axis in the plane z = 0.
+    Outer,
+    /// The lemon-shaped surface inside a torus with `minor > 1`: all points nearer than `minor` to *every* point of that
+    /// circle. (For these, the *farthest* one is what counts below.)
+    Inner,
+}
+
+impl TorusKind {
+    /// Where the circle passes through the half-plane in which a point is: on the point's side of the axis, or beyond.
+    fn ring(self) -> f64 {
+        match self {
+            Self::Outer => 1.0,
+            Self::Inner => -1.0,
+        }
+    }
+}
+
+/// A torus or its inner surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
+    /// Which part of the surface.
+    pub kind: TorusKind,
     /// Radius of the tube.
     pub minor: f64,
     /// From scene space to the torus' own coordinates.
@@ -19,17 +40,19 @@ struct Line {
     near: Vec3,
     along: Vec3,
     minor: f64,
+    /// See [`TorusKind::ring`].
+    ring: f64,
 }
 
 impl Line {
     /// `g = (ρ - 1)² + z² - minor²`, negative inside, with `ρ² = x² + y²`; and its slope along the line.
     ///
-    /// With `h = (ρ + 1)² + z² - minor²` the torus' polynomial is `f = g h`. The zeros of `h` are the lens of a torus with
-    /// `minor > 1`. And where rounding makes `f` lose the thin tubes, `g` keeps them.
+    /// With `h = (ρ + 1)² + z² - minor²` the torus' polynomial is `f = g h`. The zeros of `h` are the inner surface; there `h`
+    /// takes the place of `g`. And where rounding makes `f` lose the thin tubes, `g` keeps them.
     fn value(&self, s: f64) -> (f64, f64) {
         let p = self.near + self.along * s;
         let rho = (p.x * p.x + p.y * p.y).sqrt();
-        let from_ring = rho - 1.0;
+        let from_ring = rho - self.ring;
         let value = from_ring * from_ring + p.z * p.z - self.minor * self.minor;
         let rho_slope = (p.x * self.along.x + p.y * self.along.y) / rho;
         (value, 2.0 * (from_ring * rho_slope + p.z * self.along.z))
@@ -37,8 +60,13 @@ impl Line {
 
     /// The stretch in the ball and in the slab around the torus; `None` where they are missed, or touched only.
     fn range(&self) -> Option<(f64, f64)> {
-        let outer = 1.0 + self.minor;
-        let reach = (outer * outer - self.near.dot(self.near)).max(0.0).sqrt();
+        let outer = self.ring + self.minor;
+        let reach = match outer > 0.0 {
+            // The tips of the inner surface are farther from the middle than its equator.
+            true if self.ring < 0.0 => (outer * (self.minor + 1.0) - self.near.dot(self.near)).max(0.0).sqrt(),
+            true => (outer * outer - self.near.dot(self.near)).max(0.0).sqrt(),
+            false => return None,
+        };
         let (mut lo, mut hi) = (-reach, reach);
         if self.along.z == 0.0 {
             if self.near.z.abs() >= self.minor {
@@ -65,7 +93,7 @@ impl Torus {
         let length = direction.length();
         let t_near = -origin.dot(direction) / (length * length);
         let near = origin + direction * t_near;
-        let line = Line { near, along: direction / length, minor: self.minor };
+        let line = Line { near, along: direction / length, minor: self.minor, ring: self.kind.ring() };
         let Some((lo, hi)) = line.range() else {
             return Crossings::none(false);
         };
@@ -107,8 +135,9 @@ impl Torus {
     /// place; by interval arithmetic on the coordinates; and by the slope at `q` with a bound of the curvature.
     pub fn classify(&self, cell: &CellBox) -> Side {
         let q = self.to_local.point(cell.center);
+        let ring = self.kind.ring();
         let rho = (q.x * q.x + q.y * q.y).sqrt();
-        let distance = ring_distance(rho, q.z);
+        let distance = ring_distance(rho - ring, q.z);
         let edges = [0, 1, 2].map(|axis| self.to_local.column(axis) * cell.half[axis]);
         let corners = [
             edges[0] + edges[1] + edges[2],
@@ -123,7 +152,7 @@ impl Torus {
         // The distance's second derivatives are 1/distance across the tube and at most 1/ρ in magnitude around the ring.
         let least_rho = rho - radius;
         if least_rho > 0.0 && low > 0.0 {
-            let normal = ring_normal(q, rho) / distance;
+            let normal = ring_normal(q, rho, ring) / distance;
             let slope: f64 = edges.iter().map(|edge| normal.dot(*edge).abs()).sum::<f64>() + rounding.length();
             let bend = radius * radius / 2.0;
             let fine = (distance - slope - bend / least_rho, distance + slope + bend / low.min(least_rho));
@@ -133,9 +162,9 @@ impl Torus {
         let least = Vec3::new(q.x.abs(), q.y.abs(), q.z.abs()) - reach;
         let most = q.abs() + reach;
         let (rho_low, rho_high) = (flat_length(least.x.max(0.0), least.y.max(0.0)), flat_length(most.x, most.y));
-        let from_ring = (rho_low - 1.0).max(1.0 - rho_high).max(0.0);
+        let from_ring = (rho_low - ring).max(ring - rho_high).max(0.0);
         low = low.max(flat_length(from_ring, least.z.max(0.0)));
-        high = high.min(flat_length((rho_high - 1.0).max(1.0 - rho_low), most.z));
+        high = high.min(flat_length((rho_high - ring).max(ring - rho_low), most.z));
 
         if low >= self.minor {
             Side::Outside
@@ -149,13 +178,13 @@ impl Torus {
     /// See [`Surface::gradient`](super::Surface::gradient). Zero on the ring's circle.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
         let q = self.to_local.point(p);
-        self.to_local.transposed_vector(ring_normal(q, flat_length(q.x, q.y)) * 2.0)
+        self.to_local.transposed_vector(ring_normal(q, flat_length(q.x, q.y), self.kind.ring()) * 2.0)
     }
 
     /// See [`Surface::distance`](super::Surface::distance).
     pub fn distance(&self, p: Vec3) -> f64 {
         let q = self.to_local.point(p);
-        let distance = ring_distance(flat_length(q.x, q.y), q.z);
+        let distance = ring_distance(flat_length(q.x, q.y) - self.kind.ring(), q.z);
         let off = (distance - self.minor).abs();
         // The gradient is that of the squared distance.
         if off == 0.0 { 0.0 } else { off * (2.0 * distance) / self.gradient(p).length() }
@@ -166,14 +195,14 @@ fn flat_length(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Distance from the ring's circle.
-fn ring_distance(rho: f64, z: f64) -> f64 {
-    flat_length(rho - 1.0, z)
+/// Distance from the ring's circle, which is `from_ring` away across the axis.
+fn ring_distance(from_ring: f64, z: f64) -> f64 {
+    flat_length(from_ring, z)
 }
 
-/// From the nearest point of the ring's circle to `q`; along z only where `q` is on the axis and all are equally near.
-fn ring_normal(q: Vec3, rho: f64) -> Vec3 {
-    let outwards = if rho > 0.0 { (rho - 1.0) / rho } else { 0.0 };
+/// From the point of the ring's circle that counts to `q`; along z only where `q` is on the axis and all are equally near.
+fn ring_normal(q: Vec3, rho: f64, ring: f64) -> Vec3 {
+    let outwards = if rho > 0.0 { (rho - ring) / rho } else { 0.0 };
     Vec3::new(q.x * outwards, q.y * outwards, q.z)
 }
 
@@ -182,7 +211,8 @@ mod tests {
     use super::*;
 
     fn params(minor: f64, origin: [f64; 3], direction: [f64; 3]) -> Vec<f64> {
-        let crossings = Torus { minor, to_local: Affine::IDENTITY }.crossings(&Ray::new(origin, direction));
+        let crossings =
+            Torus { kind: TorusKind::Outer, minor, to_local: Affine::IDENTITY }.crossings(&Ray::new(origin, direction));
         assert!(!crossings.starts_inside());
         crossings.params().to_vec()
     }
@@ -237,6 +267,25 @@ mod tests {
     }
 
     #[test]
+    fn the_inner_surface_is_a_lemon() {
+        let lemon = Torus { kind: TorusKind::Inner, minor: 1.25, to_local: Affine::IDENTITY };
+        let params = |origin: [f64; 3], direction: [f64; 3]| {
+            let crossings = lemon.crossings(&Ray::new(origin, direction));
+            assert!(!crossings.starts_inside());
+            crossings.params().to_vec()
+        };
+        assert_eq!(params([-4.0, 0.0, 0.0], [1.0, 0.0, 0.0]), [3.75, 4.25], "the equator has the radius 1/4");
+        let on_axis = params([0.0, 0.0, -4.0], [0.0, 0.0, 1.0]);
+        assert_eq!(on_axis.len(), 2, "the tips are at z = ±3/4");
+        assert!((on_axis[0] - 3.25).abs() < 1e-15 && (on_axis[1] - 4.75).abs() < 1e-15, "{on_axis:?}");
+        assert_eq!(params([0.25, -4.0, 0.0], [0.0, 1.0, 0.0]), [], "a touch");
+        assert_eq!(params([-4.0, 0.0, 0.75], [1.0, 0.0, 0.0]), [], "past the tip");
+        assert_eq!(lemon.gradient(Vec3::X * 0.25).normalized(), Some(Vec3::X));
+        let none = Torus { minor: 1.0, ..lemon };
+        assert_eq!(none.crossings(&Ray::new([-4.0, 0.0, 0.0], [1.0, 0.0, 0.0])), Crossings::none(false));
+    }
+
+    #[test]
     fn a_horn_torus_closes_in_one_point() {
         assert_eq!(params(1.0, [-4.0, 0.0, 0.0], [1.0, 0.0, 0.0]), [2.0, 6.0]);
         assert_eq!(params(1.0, [0.0, 0.0, -4.0], [0.0, 0.0, 1.0]), []);
@@ -244,7 +293,7 @@ mod tests {
 
     #[test]
     fn gradients_point_outwards() {
-        let torus = Torus { minor: 0.5, to_local: Affine::scale(Vec3::splat(0.5)) };
+        let torus = Torus { kind: TorusKind::Outer, minor: 0.5, to_local: Affine::scale(Vec3::splat(0.5)) };
         for (at, outwards) in [(Vec3::X * 3.0, Vec3::X), (Vec3::X, -Vec3::X), (Vec3::new(0.0, 2.0, -1.0), -Vec3::Z)] {
             assert_eq!(torus.gradient(at).normalized(), Some(outwards));
             assert_eq!(torus.distance(at), 0.0);
@@ -254,7 +303,7 @@ mod tests {
 
     #[test]
     fn classification_is_right_for_cells_in_and_out() {
-        let torus = Torus { minor: 0.5, to_local: Affine::IDENTITY };
+        let torus = Torus { kind: TorusKind::Outer, minor: 0.5, to_local: Affine::IDENTITY };
         let classify = |x: f64, half: f64| torus.classify(&CellBox::new(Vec3::X * x, Vec3::splat(half)));
         assert_eq!(classify(0.0, 0.3), Side::Outside, "in the hole");
         assert_eq!(classify(1.0, 0.28), Side::Inside);

@@ -1,7 +1,7 @@
 //! Random solids and rays that love coincidence: small integers, shared planes, repeated values.
 #![allow(dead_code, reason = "each test uses its share")]
 
-use octrace::{Polyhedron, Ray, Solid, Vec3};
+use octrace::{Contour, Curve, Edge, Polyhedron, Primitive, Profile, Ray, Solid, Vec2, Vec3};
 use proptest::prelude::*;
 
 /// So many cases, unless the environment variable `PROPTEST_CASES` asks for another number.
@@ -101,11 +101,87 @@ pub fn polyhedra() -> Vec<Solid> {
     ]
 }
 
+fn line(x: f64, y: f64) -> Edge {
+    Edge { from: Vec2::new(x, y), curve: Curve::Line }
+}
+
+/// An arc that starts in a corner, about a center.
+fn arc(x: f64, y: f64, center: [f64; 2], ccw: bool) -> Edge {
+    let (from, center) = (Vec2::new(x, y), Vec2::new(center[0], center[1]));
+    Edge { from, curve: Curve::Arc { center, radius: (from - center).length(), ccw } }
+}
+
+/// Contours of small integers, most of them not convex: lines, arcs that bulge either way, holes, contours that touch.
+pub fn contours() -> Vec<Vec<Contour>> {
+    let polygon = |corners: &[[f64; 2]]| corners.iter().map(|&[x, y]| line(x, y)).collect::<Contour>();
+    let square = |low: f64, high: f64| polygon(&[[low, low], [high, low], [high, high], [low, high]]);
+    vec![
+        vec![square(0.0, 1.0)],
+        vec![polygon(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 2.0]])],
+        vec![polygon(&[[-1.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])],
+        vec![square(-1.0, 2.0), square(0.0, 1.0)],
+        // A hole in a corner, an island in a hole, a corner met twice.
+        vec![square(0.0, 2.0), polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])],
+        vec![square(-2.0, 2.0), square(-1.0, 1.0), vec![arc(1.0, 0.0, [0.0, 0.0], true)]],
+        vec![polygon(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0], [0.0, 2.0]])],
+        vec![polygon(&[
+            [0.0, 0.0],
+            [3.0, 0.0],
+            [3.0, 3.0],
+            [1.0, 3.0],
+            [1.0, 2.0],
+            [2.0, 2.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [0.0, 2.0],
+        ])],
+        vec![vec![arc(1.0, 0.0, [0.0, 0.0], true)]],
+        vec![vec![arc(2.0, 1.0, [1.0, 1.0], true)], vec![arc(1.0, 1.0, [0.5, 1.0], false)]],
+        // Stadium, half a disc, a crescent, most of a disc with a bite.
+        vec![vec![line(0.0, 0.0), arc(1.0, 0.0, [1.0, 0.5], true), line(1.0, 1.0), arc(0.0, 1.0, [0.0, 0.5], true)]],
+        vec![vec![line(-1.0, 0.0), arc(1.0, 0.0, [0.0, 0.0], true)]],
+        vec![vec![arc(0.0, -1.0, [0.0, 0.0], true), arc(0.0, 1.0, [-1.0, 0.0], false)]],
+        vec![vec![
+            line(0.0, -1.0),
+            line(2.0, -1.0),
+            line(2.0, 1.0),
+            line(0.0, 1.0),
+            arc(0.0, 0.5, [0.0, 0.0], false),
+            line(0.0, -0.5),
+        ]],
+        vec![vec![
+            arc(1.0, 0.0, [0.0, 0.0], true),
+            arc(-1.0, 0.0, [-2.0, 0.0], false),
+            line(-2.0, -1.0),
+            line(1.0, -1.0),
+        ]],
+        // Arcs that meet an axis at an angle: spindles and lemons, when they are turned about it.
+        vec![vec![arc(0.0, -1.0, [-0.5, 0.0], true), line(0.0, 1.0)]],
+        vec![vec![arc(0.0, -1.0, [0.5, 0.0], true), line(0.0, 1.0)]],
+    ]
+}
+
+/// Prisms, tapered or not, and bodies of revolution.
+pub fn swept() -> impl Strategy<Value = Solid> {
+    let profile =
+        prop::sample::select(contours()).prop_map(|contours| Profile::new(contours).expect("a sound profile"));
+    (profile, prop_oneof![3 => Just(None), 2 => Just(Some(1.0)), 1 => Just(Some(0.5)), 1 => Just(Some(0.0))]).prop_map(
+        |(profile, top)| {
+            let profile = profile.into();
+            Solid::primitive(match top {
+                Some(top) => Primitive::Prism { profile, top },
+                None => Primitive::Revolution(profile),
+            })
+        },
+    )
+}
+
 /// A primitive, placed on the lattice.
 pub fn lattice_primitive() -> impl Strategy<Value = Solid> {
     let shape = prop_oneof![
         4 => Just(Solid::block()),
         1 => prop::sample::select(polyhedra()),
+        3 => swept(),
         2 => Just(Solid::sphere()),
         3 => Just(Solid::cylinder()),
         1 => Just(Solid::half_space()),

@@ -1,7 +1,7 @@
 //! The twin: whether a point is in a solid, by the definition of every primitive, in its own coordinates.
 
 use octrace::model::Node;
-use octrace::{Affine, BoolOp, Polyhedron, Primitive, Solid, Vec3};
+use octrace::{Affine, BoolOp, Curve, Polyhedron, Primitive, Profile, Solid, Vec2, Vec3};
 
 /// What is known about a point.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,40 @@ fn level(primitive: &Primitive, p: Vec3) -> f64 {
         Primitive::Cone { top } => largest(&[rho - (1.0 + (top - 1.0) * p.z), -p.z, p.z - 1.0]),
         Primitive::Torus { minor } => libm::hypot(rho - 1.0, p.z) - minor,
         Primitive::Polyhedron(polyhedron) => polyhedron_level(polyhedron, p),
+        Primitive::Prism { profile, top } => {
+            let scale = 1.0 - (1.0 - top) * p.z;
+            let side = match scale > 0.0 {
+                true => profile_level(profile, Vec2::new(p.x / scale, p.y / scale)) * scale,
+                false => libm::hypot(p.x, p.y),
+            };
+            largest(&[side, -p.z, p.z - 1.0])
+        }
+        // Near the axis nothing is lost by what is cut off.
+        Primitive::Revolution(profile) => profile_level(profile, Vec2::new(rho, p.z)),
     }
+}
+
+/// Inside is what an odd number of contours are around: a ray to the right crosses them as often.
+fn profile_level(profile: &Profile, p: Vec2) -> f64 {
+    let (mut inside, mut distance) = (false, f64::INFINITY);
+    for contour in profile.contours() {
+        for (edge, next) in contour.iter().zip(contour.iter().cycle().skip(1)) {
+            let (a, b) = (edge.from, next.from);
+            let along = b - a;
+            if a != b {
+                let weight = ((p - a).dot(along) / along.dot(along)).clamp(0.0, 1.0);
+                distance = distance.min((a + along * weight - p).length());
+                inside ^= (a.y <= p.y) != (b.y <= p.y) && (along.cross(p - a) > 0.0) == (b.y > a.y);
+            }
+            if let Curve::Arc { center, radius, ccw } = edge.curve {
+                // Between the chord, which was looked at, and the arc.
+                let off = (p - center).length() - radius;
+                distance = distance.min(off.abs());
+                inside ^= off < 0.0 && (a == b || (along.cross(p - a) < 0.0) == ccw);
+            }
+        }
+    }
+    if inside { -distance } else { distance }
 }
 
 /// Inside is where the faces fill the whole sphere of directions.

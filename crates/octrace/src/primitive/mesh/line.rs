@@ -15,10 +15,13 @@ pub(super) struct Line {
     axes: [usize; 3],
     /// Direction along the picture's axes where it is one along the third.
     shear: [f64; 2],
+    /// More than rounding can make of places in the picture.
+    room: f64,
 }
 
 impl Line {
-    pub fn new(ray: &Ray) -> Self {
+    /// The line of a ray, for points whose coordinates are no larger than `farthest`.
+    pub fn new(ray: &Ray, farthest: f64) -> Self {
         let along = ray.direction.largest_axis();
         let (mut u, mut v) = ((along + 1) % 3, (along + 2) % 3);
         let advance = ray.direction[along];
@@ -27,7 +30,8 @@ impl Line {
             (u, v) = (v, u);
         }
         let shear = [ray.direction[u] / advance, ray.direction[v] / advance];
-        Self { origin: ray.origin, axes: [u, v, along], shear }
+        let room = ROOM * (2.0 * farthest + ray.origin.max_abs()) + TINY;
+        Self { origin: ray.origin, axes: [u, v, along], shear, room }
     }
 
     /// Where the point appears in the picture.
@@ -43,18 +47,17 @@ impl Line {
     /// `None` for all of them.
     pub fn may_touch(&self, bounds: &Bounds) -> bool {
         // Two ways out: the box's shadow lies beside the origin along an axis of the picture, or across the shear, where
-        // the shadow is thinnest. `room` exceeds what rounding in `project` and here can make of coordinates this large.
+        // the shadow is thinnest.
         let center = bounds.center();
         let half = (bounds.max - bounds.min) * 0.5;
         let [u, v, w] = self.axes;
         let offset = [u, v, w].map(|axis| center[axis] - self.origin[axis]);
         let [x, y] = [0, 1].map(|i| offset[i] - self.shear[i] * offset[2]);
         let [steep_x, steep_y] = self.shear.map(f64::abs);
-        let room = ROOM * (center.max_abs() + half.max_abs() + self.origin.max_abs()) + TINY;
-        let across = self.shear[0] * offset[1] - self.shear[1] * offset[0];
-        x.abs() <= half[u] + steep_x * half[w] + room
-            && y.abs() <= half[v] + steep_y * half[w] + room
-            && across.abs() <= steep_x * half[v] + steep_y * half[u] + room
+        x.abs() <= half[u] + steep_x * half[w] + self.room && y.abs() <= half[v] + steep_y * half[w] + self.room && {
+            let across = self.shear[0] * offset[1] - self.shear[1] * offset[0];
+            across.abs() <= steep_x * half[v] + steep_y * half[u] + self.room
+        }
     }
 
     /// Whether the line passes through the triangle and if so, whether it goes in (the corners, counter-clockwise from
@@ -128,7 +131,7 @@ mod tests {
     #[test]
     fn going_up_through_a_triangle_seen_from_above_goes_out() {
         let triangle = [Vec3::ZERO, Vec3::X, Vec3::Y];
-        let through = |direction: [f64; 3]| Line::new(&Ray::new([0.2, 0.2, 0.0], direction)).crosses(triangle);
+        let through = |direction: [f64; 3]| Line::new(&Ray::new([0.2, 0.2, 0.0], direction), 1.0).crosses(triangle);
         assert_eq!(through([0.0, 0.0, 2.0]), Some(false));
         assert_eq!(through([0.0, 0.0, -2.0]), Some(true));
         assert_eq!(through([-1.0, -1.0, -0.5]), Some(true));

@@ -93,7 +93,7 @@ fn assert_closed(crossings: &[Crossing]) -> Result<(), TestCaseError> {
 
 /// What the tree finds is what looking at every triangle finds.
 fn assert_complete(mesh: &Mesh, ray: &Ray, crossings: &[Crossing]) -> Result<(), TestCaseError> {
-    let line = Line::new(ray);
+    let line = Line::new(ray, mesh.farthest);
     let crossed = |i: u32| line.crosses(mesh.triangles[i as usize].corners.map(|c| mesh.points[c as usize]));
     let all: Vec<u32> = (0..mesh.triangle_count() as u32).filter(|&i| crossed(i).is_some()).collect();
     let mut found: Vec<u32> = crossings.iter().map(|c| c.triangle).collect();
@@ -250,4 +250,28 @@ fn faces_without_area_take_their_surface_from_a_neighbour() {
     assert_eq!(planes.len(), 6);
     let adopted = mesh.surface(0).surface as usize;
     assert!([0, 2].contains(&adopted), "one of the two faces at that edge, not {adopted}");
+}
+
+/// The triangle that stands for a toggle is found again from its place alone.
+#[test]
+fn toggles_are_found_again_by_their_parameter() {
+    let radii: Vec<f64> = (0..40).map(|i| 1.0 + 0.1 * f64::from(i * 7 % 10)).collect();
+    let map = Affine::linear([Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.0, -1.5, 0.3), Vec3::new(0.1, 0.0, 0.7)]);
+    let (cubes, star) = (cubes(0x2a5_71e3).unwrap(), star(&radii));
+    let mut found = 0;
+    for (polyhedron, map) in [(&cubes, Affine::IDENTITY), (&star, map)] {
+        let (mesh, planes) = place(polyhedron, &map);
+        let mut out = Vec::new();
+        for i in 0..2000 {
+            let f = |k: i32| f64::from((i * k) % 41 - 20) / 8.0;
+            let Some(ray) = Ray::checked([f(3), f(7), f(11)].into(), [f(13), f(17), f(19)].into()) else { continue };
+            let surface_t = |s: u32| plane_t(&planes[s as usize], &ray);
+            mesh.toggles(&ray, surface_t, &mut out);
+            for toggle in &out {
+                assert_eq!(mesh.triangle_at(&ray, surface_t, toggle.t, toggle.entering), Some(toggle.triangle));
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 1000, "{found}");
 }
