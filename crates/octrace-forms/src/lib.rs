@@ -5,7 +5,9 @@
 //! be from the truth.
 
 pub mod curve;
+pub mod files;
 pub mod plane;
+pub mod text;
 
 /// How far, at most, something with corners may lie from the curve that it stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
