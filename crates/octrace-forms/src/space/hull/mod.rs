@@ -1,0 +1,77 @@
+//! Convex hulls of solids.
+//!
+//! Exact are the hulls of
+//! - blocks, polyhedra and whatever else has only corners: a convex polyhedron;
+//! - balls of any sizes, and corners: see [`balls`];
+//! - cylinders and cones whose circles lie in parallel planes, and corners: see [`discs`];
+//! - balls, cylinders, cones and tori about one axis: see [`turned`];
+//!
+//! the first three moved by any affine map as a whole. Holes that the hull does not see do not matter: see [`uncut`].
+//! Everything else becomes a convex polyhedron with corners near
+//! what is round, within the tolerance and so that the volume is right.
+
+mod balls;
+mod discs;
+mod frame;
+#[cfg(test)]
+mod tests;
+mod turned;
+mod uncut;
+
+pub(super) use frame::square;
+
+use super::SpaceError;
+use super::convex::convex;
+use super::leaves::{Leaf, leaves};
+use super::mesh::mesh;
+use super::round::{Extremes, Fit};
+use crate::Tolerance;
+use octrace::Solid;
+
+/// Up to so many curved things and corners have their hull found exactly, for that takes the third power of the number.
+const MOST: usize = 300;
+
+/// The convex hull of the solids; empty for none, and where it is flat. Parts are forgotten.
+///
+/// # Errors
+/// If a solid is unbounded, or a boundary that has to be found cannot be: see [`SpaceError`].
+pub fn hull(solids: &[Solid], tolerance: Tolerance) -> Result<Solid, SpaceError> {
+    let mut extremes = Extremes::default();
+    for (map, leaf) in leaves(solids) {
+        match leaf {
+            Leaf::Primitive(primitive) => extremes.add(primitive, &map, tolerance)?,
+            leaf @ Leaf::Other(_) => {
+                let placed = leaf.placed(&map);
+                let boundary = mesh(&placed, tolerance)?;
+                match uncut::uncut(&placed, &boundary, tolerance) {
+                    Some(more) => extremes.append(more),
+                    None => extremes.points.extend(boundary.points),
+                }
+            }
+        }
+    }
+    Ok(hull_of(extremes, tolerance))
+}
+
+/// The convex hull of corners and curved things.
+pub(super) fn hull_of(mut extremes: Extremes, tolerance: Tolerance) -> Solid {
+    if extremes.rounds.is_empty() {
+        return convex(&extremes.points).map_or_else(Solid::empty, Solid::primitive);
+    }
+    if let Some(hull) = convex(&extremes.points) {
+        extremes.points = hull.points().to_vec();
+    }
+    if extremes.points.len() + extremes.rounds.len() <= MOST {
+        if let Some(framed) = frame::balls(&extremes) {
+            return balls::hull(&framed.things).transform(framed.map);
+        }
+        if let Some(framed) = frame::discs(&extremes) {
+            return discs::hull(&framed.things).transform(framed.map);
+        }
+        if let Some((rings, axis)) = frame::turned(&extremes) {
+            return turned::hull(&rings, &axis);
+        }
+    }
+    let points = extremes.sampled(tolerance.relative * extremes.size(), Fit::Inside);
+    convex(&points).map_or_else(Solid::empty, Solid::primitive)
+}
