@@ -8,6 +8,7 @@ pub mod curve;
 pub mod files;
 pub mod plane;
 pub mod space;
+pub mod sweep;
 pub mod text;
 
 /// How far, at most, something with corners may lie from the curve that it stands for.

@@ -1,0 +1,39 @@
+//! Solids swept from flat shapes: along a line, straight or twisted, and around an axis.
+//!
+//! What a straight sweep makes of lines and arcs has an exact form: prisms and bodies of revolution. A twisted one has
+//! not, and is a polyhedron; so is everything that is to have OpenSCAD's own facets.
+
+mod layers;
+mod linear;
+mod rotate;
+mod slices;
+
+pub use linear::{LinearExtrude, linear_extrude};
+pub use rotate::{RotateExtrude, rotate_extrude};
+pub use slices::{Fragments, fragments};
+
+use crate::plane::PlaneError;
+use octrace::{PolyhedronError, ProfileError};
+
+/// Why nothing could be swept.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// The shape reaches across the axis that it is to be turned about.
+    #[error("the shape lies on both sides of the axis: x goes from {from} to {to}")]
+    AcrossAxis {
+        /// Smallest x.
+        from: f64,
+        /// Largest x.
+        to: f64,
+    },
+    /// The boundary of the shape cannot be computed.
+    #[error(transparent)]
+    Plane(#[from] PlaneError),
+    /// The outline is not sound.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The polyhedron is not sound.
+    #[error(transparent)]
+    Polyhedron(#[from] PolyhedronError),
+}
