@@ -5,7 +5,7 @@ use crate::diagnostics;
 use crate::failure::Failure;
 use crate::session::Session;
 use octrace_read::scad::{self, ScadError};
-use octrace_read::{Diagnostic, Loaded, Source, read_scene};
+use octrace_read::{Diagnostic, Folder, Loaded, Source, read_scene};
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -44,6 +44,18 @@ enum Language {
     Tree,
     /// OpenSCAD's programs.
     Scad,
+    /// What `import` takes: meshes and drawings.
+    Part,
+}
+
+/// A tree that imports the file.
+fn import(file: &Path) -> Result<Source, Failure> {
+    // Whether it can be read is said better here than there.
+    let content = bytes(file)?;
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let text = format!("import(file = {name:?});");
+    drop(content);
+    Ok(Source::new(format!("{} (import)", file.display()), text).with_assets(Folder::of(file)))
 }
 
 /// Reads and checks a file; `-` is standard input.
@@ -57,9 +69,10 @@ pub fn open(file: &Path, args: &ReadArgs, session: &Session) -> Result<Input, Fa
         Language::Tree => {
             // Whoever types the input knows what is waited for.
             let _busy = (file != Path::new("-")).then(|| session.busy("reading"));
-            Source::new(shown_name(file), bytes(file)?)
+            Source::new(shown_name(file), bytes(file)?).with_assets(Folder::of(file))
         }
         Language::Scad => evaluate(file, args, session)?,
+        Language::Part => import(file)?,
     };
     let program = matches!(language, Language::Scad).then(|| file.to_owned());
     let _busy = session.busy("reading");
@@ -100,7 +113,8 @@ fn evaluate(file: &Path, args: &ReadArgs, session: &Session) -> Result<Source, F
     for line in output.echoes.iter().chain(&output.warnings) {
         session.remark(&diagnostics::printable_text(line));
     }
-    Ok(Source::new(format!("{} (dump)", file.display()), output.csg_text))
+    let source = Source::new(format!("{} (dump)", file.display()), output.csg_text);
+    Ok(source.with_assets(Folder(output.base_dir)))
 }
 
 fn language(file: &Path) -> Result<Language, Failure> {
@@ -108,8 +122,10 @@ fn language(file: &Path) -> Result<Language, Failure> {
     match extension.as_deref() {
         None | Some("csg" | "oct") => Ok(Language::Tree),
         Some("scad") => Ok(Language::Scad),
+        Some("stl" | "off" | "obj" | "amf" | "3mf" | "svg" | "dxf") => Ok(Language::Part),
         Some(other) => Err(Failure::NoAnswer(format!(
-            "{}: .{other} files are not supported, only .csg, .oct and .scad; to read it as .csg all the same, pass - \
+            "{}: .{other} files are not supported, only .csg, .oct, .scad, meshes (.stl .off .obj .amf .3mf) and drawings (.svg .dxf); to \
+             read it as .csg all the same, pass - \
              and feed it through standard input",
             file.display()
         ))),

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Folder, PLATE};
 
-const UNSUPPORTED: &str = "cube(1);\n  hull() { cube(1); }\n";
+const UNSUPPORTED: &str = "cube(1);\n  roof() { cube(1); }\n";
 
 #[test]
 fn sound_files_pass() {
@@ -39,7 +39,7 @@ fn findings_as_json() {
     assert_eq!((&finding["file"], &finding["severity"]), (&"a.csg".into(), &"error".into()));
     assert_eq!((&finding["line"], &finding["column"], &finding["end_line"]), (&2.into(), &3.into(), &2.into()));
     assert!(finding["end_column"].as_u64().unwrap() > 3);
-    assert!(finding["code"].is_string() && finding["message"].as_str().unwrap().contains("hull"), "{finding}");
+    assert!(finding["code"].is_string() && finding["message"].as_str().unwrap().contains("roof"), "{finding}");
     assert!(run.stderr.is_empty());
 
     assert_eq!(folder.run(&["check", "--json", "b.csg"]).expect(0).json(), serde_json::json!([]));

@@ -4,11 +4,11 @@
 mod corpora;
 mod pictures;
 
-use corpora::openscad_dumps;
+use corpora::{openscad_dumps, source};
 use octrace::octree::BuildOptions;
 use octrace::traverse::TraversalKind;
 use octrace::{Accel, Scene, Tracer, TracerOptions};
-use octrace_read::{ReadOptions, Source, read_scene};
+use octrace_read::{ReadOptions, read_scene};
 
 const SIZE_PX: (u32, u32) = (64, 48);
 
@@ -17,14 +17,11 @@ const SIZE_PX: (u32, u32) = (64, 48);
 const MODELS: usize = 20;
 
 fn models() -> Option<Vec<(String, Scene)>> {
-    let mut files: Vec<(String, Vec<u8>)> = openscad_dumps()?
-        .into_iter()
-        .map(|path| (path.display().to_string(), std::fs::read(&path).expect("the corpus is readable")))
-        .collect();
-    files.sort_by_key(|(name, bytes)| (bytes.len(), name.clone()));
-    let supported = files.into_iter().filter_map(|(name, bytes)| {
-        let checked = read_scene(&Source::new(name.clone(), bytes), &ReadOptions::default());
-        Some((name, checked.value?.scene))
+    let mut files = openscad_dumps()?;
+    files.sort_by_key(|path| (std::fs::metadata(path).map_or(0, |data| data.len()), path.clone()));
+    let supported = files.into_iter().filter_map(|path| {
+        let checked = read_scene(&source(&path), &ReadOptions::default());
+        Some((path.display().to_string(), checked.value?.scene))
     });
     Some(supported.step_by(2).take(MODELS).collect())
 }

@@ -27,7 +27,7 @@ fn a_closed_pipe_ends_it_quietly() {
 
 #[test]
 fn nobody_listening_to_messages_is_no_reason_to_fail() {
-    let folder = Folder::with(&[("a.csg", "hull();\ncube(1);")]);
+    let folder = Folder::with(&[("a.csg", "roof();\ncube(1);")]);
     let words = ["render", "a.csg", "--skip-unsupported", "--size=64x48"];
     let mut child = folder.command(&words).spawn().unwrap();
     drop(child.stderr.take());
@@ -39,7 +39,7 @@ fn nobody_listening_to_messages_is_no_reason_to_fail() {
 /// takes hours.
 #[test]
 fn ctrl_c_while_rendering_leaves_nothing_behind() {
-    let folder = Folder::with(&[("a.csg", "hull();\nsphere($fn = 0, $fa = 12, $fs = 2, r = 1);"), ("a.png", "old")]);
+    let folder = Folder::with(&[("a.csg", "roof();\nsphere($fn = 0, $fa = 12, $fs = 2, r = 1);"), ("a.png", "old")]);
     for output in ["a.png", "new.png"] {
         let words = ["render", "a.csg", "--skip-unsupported", "--size=4000x4000", "--samples=1024", "-o", output];
         let mut child = folder.command(&words).spawn().unwrap();

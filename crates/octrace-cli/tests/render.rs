@@ -105,10 +105,10 @@ fn cameras_and_projections() {
 
 #[test]
 fn all_errors_of_a_file_are_told_at_once() {
-    let text = "union() {\n  hull() { cube(1); }\n  cube(size = [1, 1, 1]);\n  minkowski() { cube(1); }\n}\n";
+    let text = "union() {\n  roof() { cube(1); }\n  cube(size = [1, 1, 1]);\n  roof() { cube(2); }\n}\n";
     let folder = Folder::with(&[("a.csg", text)]);
     let run = folder.run(&["render", "a.csg"]).expect(1);
-    for place in ["a.csg:2:3", "a.csg:4:3", "hull", "minkowski"] {
+    for place in ["a.csg:2:3", "a.csg:4:3", "roof"] {
         assert!(run.stderr.contains(place), "{place} in\n{}", run.stderr);
     }
     assert_eq!(folder.names(), ["a.csg"], "nothing is left behind");
@@ -128,13 +128,13 @@ fn an_error_keeps_the_old_picture() {
 
 #[test]
 fn what_cannot_be_read_or_written_is_named() {
-    let folder = Folder::with(&[("plate.csg", PLATE), ("solid.stl", ""), ("part.csg", PLATE)]);
+    let folder = Folder::with(&[("plate.csg", PLATE), ("solid.step", ""), ("part.csg", PLATE)]);
     for (words, code, expected) in [
         (&["render", "nix.csg"][..], 3, "cannot read nix.csg: no such file"),
         (&["render", "."], 3, "cannot read .: it is a folder"),
         (&["render", "plate.csg", "-o", "."], 3, "cannot write .: it is a folder"),
         (&["render", "plate.csg", "-o", "no/a.png"], 3, "cannot write no/a.png: there is no folder no"),
-        (&["render", "solid.stl"], 1, ".stl files are not supported"),
+        (&["render", "solid.step"], 1, ".step files are not supported"),
         (&["render", "-"], 2, "say with -o"),
         (&["render", "plate.csg", "-o", "./plate.csg"], 2, "would replace the file that it is of"),
         (&["render", "plate.csg", "-o", "part.csg"], 2, "pictures are PNG files"),
@@ -149,7 +149,7 @@ fn what_cannot_be_read_or_written_is_named() {
         let run = folder.run(words).expect(code);
         assert!(run.stderr.contains(expected), "{words:?}: {}", run.stderr);
     }
-    assert_eq!(folder.names(), ["part.csg", "plate.csg", "solid.stl"]);
+    assert_eq!(folder.names(), ["part.csg", "plate.csg", "solid.step"]);
     assert_eq!(fs::read_to_string(folder.path("plate.csg")).unwrap(), PLATE);
 }
 
@@ -178,7 +178,7 @@ fn bytes_that_are_no_text() {
 
 #[test]
 fn quiet_says_nothing() {
-    let folder = Folder::with(&[("a.csg", "hull();\ncube(1);")]);
+    let folder = Folder::with(&[("a.csg", "roof();\ncube(1);")]);
     let run = folder.run(&["render", "a.csg", "--skip-unsupported", "-q", SMALL]).expect(0);
     assert_eq!((run.stderr.as_str(), run.text()), ("", ""));
 }

@@ -35,8 +35,8 @@ fn what_openscad_rejects_is_an_error_in_the_input() {
 
 #[test]
 fn findings_are_about_the_dump() {
-    let folder = Folder::with(&[("a.scad", "hull() cube();")]);
-    let result = run(&folder, &["check", "a.scad"], "echo 'hull();' > \"$2\"").expect(1);
+    let folder = Folder::with(&[("a.scad", "roof() cube();")]);
+    let result = run(&folder, &["check", "a.scad"], "echo 'roof();' > \"$2\"").expect(1);
     assert!(result.stderr.contains("a.scad (dump):1:1"), "{}", result.stderr);
     assert!(result.stderr.contains("`openscad -o dump.csg a.scad` writes"), "{}", result.stderr);
 }

@@ -127,6 +127,11 @@ impl Collector {
         }
     }
 
+    /// How many there were.
+    pub fn count(&self) -> usize {
+        self.codes.iter().map(|code| code.count).sum()
+    }
+
     /// Whether an error was among them.
     pub fn has_errors(&self) -> bool {
         has_errors(&self.kept)

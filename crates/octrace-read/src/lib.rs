@@ -15,6 +15,7 @@
 //!
 //! [`syntax`] turns text into a tree and back; lowering gives the tree its meaning; [`scad`] runs OpenSCAD.
 
+mod assets;
 mod diagnostic;
 mod lower;
 mod options;
@@ -22,9 +23,11 @@ pub mod scad;
 mod source;
 pub mod syntax;
 
+pub use assets::{Assets, Folder, NoAssets};
 pub use diagnostic::{Checked, Diagnostic, Severity};
 pub use lower::{Loaded, Skipped};
-pub use options::{Facets, ReadOptions, UnknownFacets};
+pub use octrace_forms::Tolerance;
+pub use options::{CutColor, Facets, Ghosts, Highlights, ReadOptions, UnknownFacets};
 pub use source::{Dialect, Source, SourceRange};
 
 use diagnostic::{Collector, has_errors};

@@ -1,6 +1,7 @@
 //! What a caller may choose about reading.
 
 use crate::Dialect;
+use octrace_forms::Tolerance;
 use std::fmt;
 use std::str::FromStr;
 
@@ -44,6 +45,36 @@ impl FromStr for Facets {
     }
 }
 
+/// What becomes of subtrees marked `%`, which are no part of the object.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ghosts {
+    /// They are left out.
+    #[default]
+    Hidden,
+    /// They are drawn translucent.
+    Drawn,
+}
+
+/// What becomes of subtrees marked `#`, which are part of the object.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Highlights {
+    /// They look like everything else.
+    #[default]
+    Plain,
+    /// They are drawn, whole, in a translucent red besides.
+    Drawn,
+}
+
+/// Which colour a face has that a difference cuts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CutColor {
+    /// That of the solid that cuts, if it has one; else that of the solid that is cut. As in OpenSCAD's preview.
+    #[default]
+    Tool,
+    /// That of the solid that is cut.
+    Body,
+}
+
 /// How to read a file. The default suits both dumps and scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
@@ -55,6 +86,16 @@ pub struct ReadOptions {
     pub snap: Option<f64>,
     /// The dialect; by default what the file's name asks for.
     pub dialect: Option<Dialect>,
+    /// How far what has no exact form may be from the truth.
+    pub tolerance: Tolerance,
+    /// What becomes of `%`.
+    pub ghosts: Ghosts,
+    /// What becomes of `#`.
+    pub highlights: Highlights,
+    /// Which colour faces have that a difference cuts.
+    pub cut_color: CutColor,
+    /// Mend meshes that are not closed, as well as can be, instead of refusing them.
+    pub repair: bool,
 }
 
 #[cfg(test)]

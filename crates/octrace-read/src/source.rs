@@ -1,7 +1,8 @@
 //! The text of an input file and places in it.
 
+use crate::assets::{Assets, NoAssets};
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A stretch of an input file, in bytes: from `start` up to but without `end`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -33,7 +34,7 @@ pub enum Dialect {
     Scene,
 }
 
-/// An input file: its name, for messages and to tell the dialect, and its text.
+/// An input file: its name, for messages and to tell the dialect, its text, and the files that it can name.
 #[derive(Debug)]
 pub struct Source {
     name: String,
@@ -41,10 +42,11 @@ pub struct Source {
     not_utf8_at: Option<u32>,
     too_large: bool,
     line_starts: OnceLock<Vec<u32>>,
+    assets: Arc<dyn Assets>,
 }
 
 impl Source {
-    /// A file with this name and content. Bytes that are not UTF-8 are kept in mind and reported by the reader.
+    /// A file with this name and content, which can name no other files. Bytes that are not UTF-8 are kept in mind and reported by the reader.
     pub fn new(name: impl Into<String>, content: impl Into<Vec<u8>>) -> Self {
         let mut content: Vec<u8> = content.into();
         let too_large = u32::try_from(content.len()).is_err();
@@ -58,7 +60,18 @@ impl Source {
                 (String::from_utf8_lossy(error.as_bytes()).into_owned(), Some(at))
             }
         };
-        Self { name: name.into(), text, not_utf8_at, too_large, line_starts: OnceLock::new() }
+        let (line_starts, assets) = (OnceLock::new(), Arc::new(NoAssets));
+        Self { name: name.into(), text, not_utf8_at, too_large, line_starts, assets }
+    }
+
+    /// The same file; what it names is to be found there.
+    pub fn with_assets(self, assets: impl Assets + 'static) -> Self {
+        Self { assets: Arc::new(assets), ..self }
+    }
+
+    /// Where the files are that it names.
+    pub fn assets(&self) -> &dyn Assets {
+        &*self.assets
     }
 
     /// What the file is called.

@@ -20,7 +20,7 @@ use octrace::film::Background;
 use octrace::octree::BuildOptions;
 use octrace::trace::{Accel, TracerOptions};
 use octrace::traverse::TraversalKind;
-use octrace_read::{Facets, ReadOptions};
+use octrace_read::{CutColor, Facets, Ghosts, Highlights, ReadOptions, Tolerance};
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -122,6 +122,22 @@ pub struct ReadArgs {
     /// [default: 2e-6 for .csg and .scad, which makes up for the six digits of dumps; 0 for .oct]
     #[arg(long, value_name = "RATIO", value_parser = values::relative_or_zero, allow_hyphen_values = true)]
     pub snap: Option<f64>,
+    /// How far what has no exact form may be from the truth, relative to its own size: twisted extrusions, ellipses that
+    /// are offset, and the like. `measure` takes it for the volume too
+    #[arg(long, value_name = "RATIO", default_value = "1e-4", value_parser = values::relative_above_zero, allow_hyphen_values = true)]
+    pub tolerance: f64,
+    /// Draw what `%` marks too, translucent
+    #[arg(long)]
+    pub show_background: bool,
+    /// Draw what `#` marks in a translucent red besides
+    #[arg(long)]
+    pub highlight: bool,
+    /// Which colour a cut face has: that of the solid that cuts, where it has one, or that of the body that is cut
+    #[arg(long, value_name = "WHOSE", default_value = "tool", value_parser = ["tool", "body"])]
+    pub cut_color: String,
+    /// Mend imported meshes that are not closed, as well as can be, instead of refusing them
+    #[arg(long)]
+    pub repair: bool,
     /// Leave out what is not supported, saying what, instead of failing
     #[arg(long)]
     pub skip_unsupported: bool,
@@ -247,9 +263,6 @@ pub struct MeasureArgs {
     /// Print one JSON object on standard output
     #[arg(long)]
     pub json: bool,
-    /// How far the volume may be off, relative to itself
-    #[arg(long, value_name = "RATIO", default_value = "1e-4", value_parser = values::relative_above_zero, allow_hyphen_values = true)]
-    pub tolerance: f64,
     /// How files are read.
     #[command(flatten)]
     pub read: ReadArgs,
@@ -320,7 +333,12 @@ impl ReadArgs {
             facets: self.facets,
             skip_unsupported: self.skip_unsupported,
             snap: self.snap,
-            ..ReadOptions::default()
+            tolerance: Tolerance { relative: self.tolerance },
+            ghosts: if self.show_background { Ghosts::Drawn } else { Ghosts::Hidden },
+            highlights: if self.highlight { Highlights::Drawn } else { Highlights::Plain },
+            cut_color: if self.cut_color == "body" { CutColor::Body } else { CutColor::Tool },
+            repair: self.repair,
+            dialect: None,
         }
     }
 }

@@ -34,7 +34,7 @@ pub fn run(args: &MeasureArgs, session: &Session) -> Result<(), Failure> {
         let (exec, _listening) = session.exec(&args.trace);
         let tracer = Tracer::build(&scene.solid, &args.trace.options(scene.snap), &exec)?;
         session.remark_on_snapping(&tracer);
-        measure(&tracer, &MeasureOptions { tolerance: args.tolerance, ..MeasureOptions::default() }, &exec)
+        measure(&tracer, &MeasureOptions { tolerance: args.read.tolerance, ..MeasureOptions::default() }, &exec)
     };
     let measures = measured.map_err(|error| match error {
         MeasureError::Cancelled => Failure::Interrupted,
@@ -62,7 +62,7 @@ fn report<'a>(source: &'a octrace_read::Source, args: &MeasureArgs, measures: &M
     Report {
         file: source.name(),
         facets: args.read.facets.to_string(),
-        tolerance: args.tolerance,
+        tolerance: args.read.tolerance,
         volume: measures.volume,
         volume_error: measures.volume_error,
         centroid: measures.centroid.map(Vec3::to_array),

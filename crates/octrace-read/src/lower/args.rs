@@ -4,7 +4,7 @@ use super::language::{Word, nearest};
 use super::report::Report;
 use super::types::Type;
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::syntax::{Arg, Ast, NodeId, Rows, View, element_range};
+use crate::syntax::{Arg, Ast, NodeId, Rows, Value, View, element_range};
 use crate::{Dialect, SourceRange};
 
 /// The arguments of one node, checked: of the right type, or absent.
@@ -98,13 +98,27 @@ impl<'a> Args<'a> {
 
     /// The argument as it stands in the file.
     pub fn get(&self, name: &str) -> Option<&'a Arg> {
-        debug_assert!(self.word.params.iter().any(|(param, _)| *param == name), "{}({name})", self.word.name);
         self.given.iter().find(|(given, _)| *given == name).map(|(_, arg)| *arg)
     }
 
     /// What is in the argument.
     pub fn view(&self, name: &str) -> Option<View<'a>> {
         self.get(name).map(|arg| self.ast.view(arg.value))
+    }
+
+    /// Whether the node has this name.
+    pub fn is_of(&self, word: &str) -> bool {
+        self.word.name == word
+    }
+
+    /// Whether a `file` is named.
+    pub fn names_a_file(&self) -> bool {
+        self.text("file").is_some_and(|(name, _)| !name.is_empty())
+    }
+
+    /// What is in a value of an argument.
+    pub fn look(&self, value: Value) -> View<'a> {
+        self.ast.view(value)
     }
 
     /// A number and its place.

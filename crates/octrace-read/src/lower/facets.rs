@@ -4,42 +4,31 @@ use super::args::Args;
 use crate::Facets;
 use octrace::geom::sin_cos_deg;
 use octrace::{Polyhedron, PolyhedronError, Vec3};
+use octrace_forms::sweep::{Fragments, fragments};
 
 /// `$fn` up to this is taken to mean facets: nearly always a nut, a hexagon, a pyramid.
 const LARGEST_MEANT: f64 = 12.0;
 
 /// The number of facets around a thing of this radius, or `None` where it is to be round.
 pub(super) fn around(mode: Facets, args: &Args<'_>, radius: f64) -> Option<u32> {
+    meant(mode, args).map(|by| fragments(radius, &by))
+}
+
+/// By what OpenSCAD counts the facets of a thing that is to have them; `None` where it is to be round.
+pub(super) fn meant(mode: Facets, args: &Args<'_>) -> Option<Fragments> {
     let number = |name| args.number(name).map(|(v, _)| v);
     let (wanted, angle, size) = (number("$fn"), number("$fa"), number("$fs"));
-    let meant = wanted.is_some_and(|n| 0.0 < n && n < LARGEST_MEANT + 1.0);
+    let default = Fragments::default();
+    let written = Fragments {
+        count: wanted.unwrap_or(default.count),
+        angle_deg: angle.unwrap_or(default.angle_deg),
+        size: size.unwrap_or(default.size),
+    };
     match mode {
         Facets::Smooth => None,
-        Facets::Auto => wanted.filter(|_| meant).map(at_least_three),
-        Facets::Written if wanted.or(angle).or(size).is_none() => None,
-        Facets::Written => Some(written(radius, wanted.unwrap_or(0.0), angle.unwrap_or(12.0), size.unwrap_or(2.0))),
+        Facets::Auto => (0.0 < written.count && written.count < LARGEST_MEANT + 1.0).then_some(written),
+        Facets::Written => wanted.or(angle).or(size).map(|_| written),
     }
-}
-
-/// OpenSCAD's rule.
-fn written(radius: f64, wanted: f64, angle: f64, size: f64) -> u32 {
-    /// OpenSCAD's finest grid: what is smaller is a triangle.
-    const GRID: f64 = 1.0 / 1_048_576.0;
-    /// What OpenSCAD takes `$fa` and `$fs` for if they are smaller.
-    const SMALLEST: f64 = 0.01;
-    if radius < GRID || !wanted.is_finite() {
-        3
-    } else if wanted > 0.0 {
-        at_least_three(wanted)
-    } else {
-        let by_angle = 360.0 / angle.max(SMALLEST);
-        let by_size = radius * std::f64::consts::TAU / size.max(SMALLEST);
-        by_angle.min(by_size).max(5.0).ceil() as u32
-    }
-}
-
-fn at_least_three(n: f64) -> u32 {
-    (n as u32).max(3)
 }
 
 /// Corners of a regular polygon: at angles of 360 i / n degrees, the first on +x.
@@ -124,17 +113,5 @@ mod tests {
         // Two rings, 45 degrees from the poles: a square prism of half height and radius sqrt(1/2).
         check(volume(&ball(4).unwrap()), 2.0_f64.sqrt());
         assert_eq!(ball(5).unwrap().points().len(), 15, "three rings of five");
-    }
-
-    #[test]
-    fn openscad_counts_like_this() {
-        assert_eq!(written(1.0, 0.0, 12.0, 2.0), 5);
-        assert_eq!(written(10.0, 0.0, 12.0, 2.0), 30);
-        assert_eq!(written(5.0, 0.0, 12.0, 2.0), 16);
-        assert_eq!(written(5.0, 2.0, 12.0, 2.0), 3);
-        assert_eq!(written(5.0, 7.9, 12.0, 2.0), 7);
-        assert_eq!(written(5.0, f64::INFINITY, 12.0, 2.0), 3);
-        assert_eq!(written(1e-7, 50.0, 12.0, 2.0), 3);
-        assert_eq!(written(1.0, 0.0, 0.0, 0.0), 629);
     }
 }

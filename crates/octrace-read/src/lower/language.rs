@@ -13,10 +13,24 @@ pub(super) enum Kind {
     HalfSpace,
     Torus,
     Polyhedron,
+    Square,
+    Circle,
+    Polygon,
+    Text,
+    Import,
+    Surface,
     /// Unites its children and does nothing else.
     Group,
     Difference,
     Intersection,
+    LinearExtrude,
+    RotateExtrude,
+    Offset,
+    Fill,
+    Hull,
+    Minkowski,
+    Resize,
+    Projection,
     Multmatrix,
     Translate,
     Rotate,
@@ -35,11 +49,11 @@ pub(super) enum Kind {
 impl Kind {
     /// Whether it is a leaf: takes no children.
     pub fn is_leaf(self) -> bool {
-        use Kind::{Ambient, Background, Block, Camera, Cube, Cylinder, HalfSpace, Light, Polyhedron, Sphere, Torus};
-        matches!(
-            self,
-            Block | Cube | Sphere | Cylinder | HalfSpace | Torus | Polyhedron | Light | Camera | Ambient | Background
-        )
+        use Kind::{Ambient, Background, Camera, Light};
+        use Kind::{Block, Circle, Cube, Cylinder, HalfSpace, Import, Polygon, Polyhedron, Sphere, Square, Surface};
+        let is_solid = matches!(self, Block | Cube | Sphere | Cylinder | HalfSpace | Self::Torus | Polyhedron);
+        let is_setting = matches!(self, Light | Camera | Ambient | Background);
+        is_solid || is_setting || matches!(self, Square | Circle | Polygon | Self::Text | Import | Surface)
     }
 }
 
@@ -68,11 +82,6 @@ const fn word(name: &'static str, kind: Kind, params: &'static [Param]) -> Word 
 const fn later(name: &'static str, needs: &'static str, params: &'static [Param]) -> Word {
     Word { name, kind: Kind::Unsupported(needs), params }
 }
-
-const NEEDS_2D: &str = "a flat shape has no volume; it will count once extrusions are rendered";
-const NEEDS_EXTRUSION: &str = "needs solids over flat outlines, which octrace does not have yet";
-const NEEDS_HULL: &str = "needs convex hulls, which octrace does not have yet";
-const NEEDS_MESH: &str = "needs a reader for the file that it names, which octrace does not have yet";
 
 /// Every word there is.
 pub(super) const WORDS: &[Word] = &[
@@ -148,12 +157,12 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word("ambient", Kind::Ambient, &[("color", Brightness), ("intensity", Number)]),
     word("background", Kind::Background, &[("color", Brightness)]),
-    later("square", NEEDS_2D, &[("size", Type::Scale(2, 2)), CENTER]),
-    later("circle", NEEDS_2D, &[("r", Number), ("d", Number), FN, FA, FS]),
-    later("polygon", NEEDS_2D, &[("points", Points(2)), ("paths", Lists), CONVEXITY, FN, FA, FS]),
-    later(
+    word("square", Kind::Square, &[("size", Type::Scale(2, 2)), CENTER]),
+    word("circle", Kind::Circle, &[("r", Number), ("d", Number), FN, FA, FS]),
+    word("polygon", Kind::Polygon, &[("points", Points(2)), ("paths", Lists), CONVEXITY, FN, FA, FS]),
+    word(
         "text",
-        NEEDS_2D,
+        Kind::Text,
         &[
             ("text", Text),
             ("size", Number),
@@ -169,12 +178,12 @@ pub(super) const WORDS: &[Word] = &[
             FS,
         ],
     ),
-    later("offset", NEEDS_2D, &[("r", Number), ("delta", Number), ("chamfer", Flag), FN, FA, FS]),
-    later("fill", NEEDS_2D, &[]),
-    later("projection", NEEDS_2D, &[("cut", Flag), CONVEXITY]),
-    later(
+    word("offset", Kind::Offset, &[("r", Number), ("delta", Number), ("chamfer", Flag), FN, FA, FS]),
+    word("fill", Kind::Fill, &[]),
+    word("projection", Kind::Projection, &[("cut", Flag), CONVEXITY]),
+    word(
         "linear_extrude",
-        NEEDS_EXTRUSION,
+        Kind::LinearExtrude,
         &[
             ("height", Number),
             ("v", Numbers(3, 3)),
@@ -187,20 +196,40 @@ pub(super) const WORDS: &[Word] = &[
             FN,
             FA,
             FS,
+            ("file", Text),
+            ("layer", Any),
+            ("origin", Numbers(2, 2)),
+            ("timestamp", Number),
         ],
     ),
-    later("rotate_extrude", NEEDS_EXTRUSION, &[("angle", Number), ("start", Number), CONVEXITY, FN, FA, FS]),
-    later("roof", NEEDS_EXTRUSION, &[("method", Text), CONVEXITY, FN, FA, FS]),
-    later("hull", NEEDS_HULL, &[]),
-    later("minkowski", "needs Minkowski sums, which octrace does not have yet", &[CONVEXITY]),
-    later(
-        "resize",
-        "needs the exact extent of its children, which octrace does not know when reading",
-        &[("newsize", Numbers(1, 3)), ("auto", Any), CONVEXITY],
+    word(
+        "rotate_extrude",
+        Kind::RotateExtrude,
+        &[
+            ("angle", Number),
+            ("start", Number),
+            CONVEXITY,
+            FN,
+            FA,
+            FS,
+            ("file", Text),
+            ("layer", Any),
+            ("origin", Numbers(2, 2)),
+            ("scale", Number),
+            ("timestamp", Number),
+        ],
     ),
     later(
+        "roof",
+        "roofs over flat shapes are not made here, nor by releases of OpenSCAD",
+        &[("method", Text), CONVEXITY, FN, FA, FS],
+    ),
+    word("hull", Kind::Hull, &[]),
+    word("minkowski", Kind::Minkowski, &[CONVEXITY]),
+    word("resize", Kind::Resize, &[("newsize", Numbers(1, 3)), ("auto", Any), CONVEXITY]),
+    word(
         "import",
-        NEEDS_MESH,
+        Kind::Import,
         &[
             ("file", Text),
             ("convexity", Number),
@@ -216,7 +245,7 @@ pub(super) const WORDS: &[Word] = &[
             FS,
         ],
     ),
-    later("surface", NEEDS_MESH, &[("file", Text), CENTER, CONVEXITY, ("invert", Flag), ("timestamp", Number)]),
+    word("surface", Kind::Surface, &[("file", Text), CENTER, CONVEXITY, ("invert", Flag), ("timestamp", Number)]),
 ];
 
 /// The word with this name.

@@ -1,9 +1,16 @@
 //! What a tree means: checks every node's arguments and makes a [`octrace::Scene`].
 
 mod args;
+mod asides;
 mod facets;
+mod flats;
+mod imports;
 mod language;
 mod looks;
+mod memory;
+mod operand;
+mod operation;
+mod perform;
 mod polyhedron;
 mod report;
 mod settings;
@@ -14,10 +21,11 @@ mod walk;
 
 use crate::diagnostic::{Collector, Diagnostic};
 use crate::syntax::Ast;
-use crate::{Dialect, ReadOptions, Source, SourceRange};
+use crate::{Dialect, Ghosts, ReadOptions, Source, SourceRange};
 use octrace::{Scene, Solid};
+use operand::Operand;
 use std::collections::BTreeMap;
-use walk::{Operand, Walk};
+use walk::Walk;
 
 /// A scene, and what there is to tell about the file that it came from.
 #[derive(Clone, Debug)]
@@ -51,23 +59,31 @@ pub struct Skipped {
 pub(crate) fn lower(ast: &Ast, source: &Source, options: &ReadOptions, out: &mut Collector) -> Loaded {
     let dialect = options.dialect.unwrap_or_else(|| source.dialect());
     let syntax_is_sound = !out.has_errors();
-    let mut walk = Walk::new(ast, options, report::Report::new(source.text(), dialect, out));
+    let mut walk = Walk::new(ast, options, source.assets(), report::Report::new(source.text(), dialect, out));
     let result = walk.run();
-    let Walk { settings, parts, skipped, background, background_at, depth, leaves, .. } = walk;
-    if let Some(at) = background_at {
+    let Walk { settings, mut parts, skipped, background, background_at, depth, leaves, asides, .. } = walk;
+    let first_at = ast.roots().next().map_or(SourceRange::default(), |node| ast.name_at(node));
+    if let (Some(at), Ghosts::Hidden) = (background_at, options.ghosts) {
         let things = if background == 1 { "a subtree".to_owned() } else { format!("{background} subtrees") };
         let message = format!("`%` marks {things} as not part of the object: left out");
         out.push(Diagnostic::note("background-modifier", at, message));
     }
-    let solid = match result {
-        Operand::Solid(made) => made.solid,
-        Operand::Empty | Operand::LeftOut => {
-            if syntax_is_sound && !out.has_errors() {
-                out.push(empty_scene(ast, !skipped.is_empty()));
-            }
-            Solid::empty()
+    let mut solids: Vec<Solid> = match result {
+        Operand::Solid(made) => vec![made.solid],
+        Operand::Flat(flat) => {
+            let message = "this is flat; it becomes a plate of height 1, as in OpenSCAD's preview";
+            out.push(Diagnostic::note("flat-file", first_at, message));
+            perform::plate(&flat, options.tolerance).into_iter().collect()
         }
+        Operand::Empty | Operand::LeftOut => Vec::new(),
     };
+    for (solid, material) in asides.finish() {
+        solids.push(solid.part(parts.of(material, first_at)));
+    }
+    if solids.is_empty() && syntax_is_sound && !out.has_errors() {
+        out.push(empty_scene(ast, !skipped.is_empty()));
+    }
+    let solid = Solid::union(solids);
     let default_snap = match dialect {
         Dialect::Dump => Scene::SNAP_SIX_DIGITS,
         Dialect::Scene => 0.0,

@@ -3,9 +3,10 @@
 use super::args::Args;
 use super::report::Report;
 use crate::SourceRange;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Rows, element_range};
 use octrace::{Polyhedron, PolyhedronError, Solid, Vec3};
+use octrace_forms::files::mesh::RawMesh;
 
 /// The arguments as written.
 struct Written<'a> {
@@ -16,7 +17,7 @@ struct Written<'a> {
 }
 
 /// The solid, or `None` where there is none; why was said.
-pub(super) fn solid(args: &Args<'_>, report: &mut Report<'_>) -> Option<Solid> {
+pub(super) fn solid(args: &Args<'_>, repair: bool, report: &mut Report<'_>) -> Option<Solid> {
     let faces_name = if args.get("faces").is_some() { "faces" } else { "triangles" };
     let (Some((points, points_at)), Some((faces, faces_at))) = (args.rows("points"), args.rows(faces_name)) else {
         if !args.damaged {
@@ -37,9 +38,10 @@ pub(super) fn solid(args: &Args<'_>, report: &mut Report<'_>) -> Option<Solid> {
         return None;
     }
     // OpenSCAD lists the corners of a face clockwise as seen from outside.
-    let corners = usable.iter().map(|(_, face)| face.iter().rev().map(|&v| v as u32).collect()).collect();
-    let points = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
-    match Polyhedron::new(points, corners) {
+    let corners: Vec<Vec<u32>> =
+        usable.iter().map(|(_, face)| face.iter().rev().map(|&v| v as u32).collect()).collect();
+    let points: Vec<Vec3> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    match Polyhedron::new(points.clone(), corners.clone()) {
         Ok(polyhedron) => Some(Solid::primitive(polyhedron)),
         Err(PolyhedronError::Flat) => {
             let wrong = "this polyhedron encloses no volume".to_owned();
@@ -48,10 +50,25 @@ pub(super) fn solid(args: &Args<'_>, report: &mut Report<'_>) -> Option<Solid> {
         }
         Err(error) => {
             let original = |face: usize| usable.get(face).map_or(face, |(original, _)| *original);
-            report.push(written.complaint(&error, original, args.name_at, report.text));
-            None
+            let complaint = written.complaint(&error, original, args.name_at, report.text);
+            // OpenSCAD shows what is open all the same.
+            let mended = if repair || report.forgives() { mended(points, corners) } else { None };
+            report.push(match mended {
+                Some(_) => Diagnostic {
+                    severity: Severity::Warning,
+                    message: format!("{}; it was mended", complaint.message),
+                    ..complaint
+                },
+                None => complaint,
+            });
+            mended.map(Solid::primitive)
         }
     }
+}
+
+/// The solid that comes of closing the surface as well as can be.
+fn mended(points: Vec<Vec3>, faces: Vec<Vec<u32>>) -> Option<Polyhedron> {
+    RawMesh { points, faces }.repaired().0.into_polyhedron().ok()
 }
 
 impl Written<'_> {

@@ -17,6 +17,11 @@ impl<'r> Report<'r> {
         Self { text, dialect, out, said: HashSet::new() }
     }
 
+    /// How much there was to say so far.
+    pub fn count(&self) -> usize {
+        self.out.count()
+    }
+
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.out.push(diagnostic);
     }
@@ -24,6 +29,11 @@ impl<'r> Report<'r> {
     /// Whether this pair of words has not been seen before.
     pub fn is_news(&mut self, a: &str, b: &str) -> bool {
         self.said.insert((a.to_owned(), b.to_owned()))
+    }
+
+    /// Whether what makes no sense is nothing, as for OpenSCAD, and not a mistake.
+    pub fn forgives(&self) -> bool {
+        self.dialect == Dialect::Dump
     }
 
     /// A size that makes no sense. Whoever writes a scene by hand is wrong there; in a dump the thing is nothing, as it

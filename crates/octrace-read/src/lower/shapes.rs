@@ -14,6 +14,8 @@ use std::collections::HashMap;
 /// Makes leaves, and each primitive only once.
 pub(super) struct Shapes {
     facets: Facets,
+    /// Whether polyhedra that are not closed are mended.
+    repair: bool,
     units: HashMap<Unit, Solid>,
 }
 
@@ -39,8 +41,8 @@ const MOST_FACETS_OF_A_CYLINDER: u32 = 100_000;
 const MOST_FACETS_OF_A_BALL: u32 = 2_000;
 
 impl Shapes {
-    pub fn new(facets: Facets) -> Self {
-        Self { facets, units: HashMap::new() }
+    pub fn new(facets: Facets, repair: bool) -> Self {
+        Self { facets, repair, units: HashMap::new() }
     }
 
     /// The solid of a leaf, or `None` where it is nothing; why was said.
@@ -52,7 +54,7 @@ impl Shapes {
             Kind::Sphere => self.sphere(args, report),
             Kind::Cylinder => self.cylinder(args, report),
             Kind::Torus => self.torus(args, report),
-            Kind::Polyhedron => polyhedron::solid(args, report),
+            Kind::Polyhedron => polyhedron::solid(args, self.repair, report),
             _ => None,
         }
     }
@@ -155,12 +157,12 @@ fn too_many_facets(n: u32, args: &Args<'_>, instead: Unit, report: &mut Report<'
 }
 
 /// A radius, given as such or as a diameter.
-fn radius(args: &Args<'_>, diameter: &str, radius: &str) -> Option<(f64, SourceRange)> {
+pub(super) fn radius(args: &Args<'_>, diameter: &str, radius: &str) -> Option<(f64, SourceRange)> {
     args.number(diameter).map(|(d, at)| (d / 2.0, at)).or_else(|| args.number(radius))
 }
 
 /// `None`, and a word about it, where a size is not positive and finite.
-fn is_positive(
+pub(super) fn is_positive(
     value: f64,
     at: SourceRange,
     code: &'static str,

@@ -3,16 +3,17 @@
 use super::args::Args;
 use super::language::Kind;
 use super::report::Report;
+use crate::SourceRange;
 use crate::diagnostic::Diagnostic;
 use octrace::{Affine, Vec3};
 
 /// What a node does to its children's place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Placement {
-    /// Moves them.
+    /// Moves them. The map may be flat, which leaves nothing of solids.
     Moved(Affine),
-    /// Leaves nothing of them: the map is flat, or not a map at all. That was said.
-    Flattened,
+    /// Leaves nothing of them: there is no map. That was said.
+    Nowhere,
 }
 
 /// What the node does; nothing where it is not a transform.
@@ -30,21 +31,31 @@ pub(super) fn placement(kind: Kind, args: &Args<'_>, report: &mut Report<'_>) ->
         _ => Some(Affine::IDENTITY),
     };
     match map {
-        Some(map) if map.inverse().is_some() => Placement::Moved(map),
-        Some(map) => {
-            let at = args.get(if kind == Kind::Multmatrix { "m" } else { "v" }).map_or(args.name_at, |arg| arg.at);
-            let message = if !map.is_finite() {
-                "this moves its children to infinity, which leaves nothing of them"
-            } else if map.determinant().is_finite() {
-                "this flattens its children, which leaves nothing of them"
-            } else {
-                "these numbers are too large to compute with, which leaves nothing of the children"
-            };
-            report.push(Diagnostic::warning("singular-matrix", at, message));
-            Placement::Flattened
-        }
-        None => Placement::Flattened,
+        Some(map) => Placement::Moved(map),
+        None => Placement::Nowhere,
     }
+}
+
+/// Where the numbers are that say how a node moves its children.
+pub(super) fn place_of_map(kind: Kind, args: &Args<'_>) -> SourceRange {
+    let name = match kind {
+        Kind::Multmatrix => "m",
+        Kind::Translate | Kind::Rotate | Kind::Scale | Kind::Mirror => "v",
+        _ => return args.name_at,
+    };
+    args.get(name).map_or(args.name_at, |arg| arg.at)
+}
+
+/// A warning that a map leaves nothing of what it moves.
+pub(super) fn singular(map: &Affine, at: SourceRange) -> Diagnostic {
+    let message = if !map.is_finite() {
+        "this moves its children to infinity, which leaves nothing of them"
+    } else if map.determinant().is_finite() {
+        "this flattens its children, which leaves nothing of them"
+    } else {
+        "these numbers are too large to compute with, which leaves nothing of the children"
+    };
+    Diagnostic::warning("singular-matrix", at, message)
 }
 
 fn matrix(args: &Args<'_>, report: &mut Report<'_>) -> Option<Affine> {
@@ -93,7 +104,7 @@ fn mirror(args: &Args<'_>, report: &mut Report<'_>) -> Option<Affine> {
 }
 
 /// A vector that should be a direction is zero or infinite.
-pub(super) fn no_direction(at: crate::SourceRange, what: &str) -> Diagnostic {
+pub(super) fn no_direction(at: SourceRange, what: &str) -> Diagnostic {
     Diagnostic::error(
         "no-direction",
         at,

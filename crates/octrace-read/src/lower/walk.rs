@@ -2,75 +2,57 @@
 
 use super::Skipped;
 use super::args::Args;
+use super::asides::{Aside, Asides};
 use super::language::{self, Kind, Word};
 use super::looks::{Look, Parts};
+use super::memory::{Known, Memory};
+use super::operand::{Operand, Operands};
+use super::operation::Operation;
 use super::report::Report;
 use super::settings::Settings;
 use super::shapes::{self, Shapes};
-use super::transforms::{Placement, placement};
+use super::transforms::{Placement, place_of_map, placement};
+use crate::assets::Assets;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Ast, Modifiers, NodeId, Siblings};
-use crate::{Dialect, ReadOptions, SourceRange};
-use octrace::{Affine, BoolOp, PartId, Solid};
-
-/// What a node is to the operation around it.
-#[derive(Clone, Debug)]
-pub(super) enum Operand {
-    /// A solid.
-    Solid(Made),
-    /// Nothing, and meant to be.
-    Empty,
-    /// Something that cannot be rendered yet.
-    LeftOut,
-}
-
-/// A solid, and what is known of its leaves.
-#[derive(Clone, Debug)]
-pub(super) struct Made {
-    pub solid: Solid,
-    /// The part of the first leaf that has one.
-    first_part: Option<PartId>,
-    /// Whether there are leaves that belong to no part yet.
-    bare: bool,
-}
-
-impl Made {
-    fn leaf(solid: Solid) -> Self {
-        Self { solid, first_part: None, bare: true }
-    }
-
-    /// With its bare leaves put into `part`.
-    fn part(self, part: PartId) -> Self {
-        let first_part = self.first_part.or(Some(part));
-        let solid = if self.bare { self.solid.part(part) } else { self.solid };
-        Self { solid, first_part, bare: false }
-    }
-}
+use crate::{CutColor, Dialect, Ghosts, Highlights, ReadOptions, SourceRange};
+use octrace::Affine;
 
 /// A node whose children are being gone through.
-struct Frame<'a> {
-    node: Option<NodeId>,
-    kind: Kind,
+pub(super) struct Frame<'a> {
+    pub node: Option<NodeId>,
+    pub operation: Operation,
     children: Siblings<'a>,
-    operands: Vec<Operand>,
-    look: Look,
+    pub operands: Operands,
+    pub look: Look,
     /// Whether the look changes here.
-    new_look: bool,
-    placement: Placement,
+    pub new_look: bool,
+    pub placement: Placement,
+    /// Where that is written.
+    pub placement_at: SourceRange,
     /// From here to the scene.
-    map: Affine,
+    pub map: Affine,
     /// Whether solids count here: not outside the node marked `!`, and not below what is left out.
     counts: bool,
+    /// Whether colours and materials count here.
+    paints: bool,
+    /// Where its result goes besides, or instead.
+    aside: Aside,
+    /// What was there when it was entered, to tell what comes of it.
+    known: Option<Known>,
 }
 
 /// The state of lowering one tree.
 pub(super) struct Walk<'a, 'r> {
-    ast: &'a Ast,
+    pub(super) ast: &'a Ast,
+    pub(super) options: &'a ReadOptions,
+    pub(super) assets: &'a dyn Assets,
     /// What the names of the tree mean, in their order.
     words: Vec<Option<&'static Word>>,
-    report: Report<'r>,
-    shapes: Shapes,
-    skip_unsupported: bool,
+    pub(super) report: Report<'r>,
+    pub(super) shapes: Shapes,
+    memory: Memory,
+    pub asides: Asides,
     root: Option<NodeId>,
     root_result: Operand,
     pub settings: Settings,
@@ -83,13 +65,16 @@ pub(super) struct Walk<'a, 'r> {
 }
 
 impl<'a, 'r> Walk<'a, 'r> {
-    pub fn new(ast: &'a Ast, options: &ReadOptions, report: Report<'r>) -> Self {
+    pub fn new(ast: &'a Ast, options: &'a ReadOptions, assets: &'a dyn Assets, report: Report<'r>) -> Self {
         Self {
             ast,
+            options,
+            assets,
             words: ast.names().map(language::find).collect(),
             report,
-            shapes: Shapes::new(options.facets),
-            skip_unsupported: options.skip_unsupported,
+            shapes: Shapes::new(options.facets, options.repair),
+            memory: Memory::of(ast),
+            asides: Asides::default(),
             root: None,
             root_result: Operand::Empty,
             settings: Settings::default(),
@@ -107,14 +92,18 @@ impl<'a, 'r> Walk<'a, 'r> {
         self.root = self.find_root();
         let file = Frame {
             node: None,
-            kind: Kind::Group,
+            operation: Operation::Unite,
             children: self.ast.roots(),
             operands: Vec::new(),
             look: Look::default(),
             new_look: false,
             placement: Placement::Moved(Affine::IDENTITY),
+            placement_at: SourceRange::default(),
             map: Affine::IDENTITY,
             counts: self.root.is_none(),
+            paints: true,
+            aside: Aside::No,
+            known: None,
         };
         let mut stack = vec![file];
         loop {
@@ -123,18 +112,26 @@ impl<'a, 'r> Walk<'a, 'r> {
             if let Some(child) = top.children.next() {
                 match self.enter(child, top) {
                     Step::Into(frame) => stack.push(*frame),
-                    Step::Done(operand) => top.operands.extend(operand),
+                    Step::Done(operand) => top.operands.extend(operand.map(|o| (self.ast.name_at(child), o))),
                 }
                 continue;
             }
             let frame = stack.pop().expect("it was there just now");
             let node = frame.node;
+            let at = node.map_or(SourceRange::default(), |node| self.ast.name_at(node));
+            let (aside, known) = (frame.aside, frame.known);
             let operand = self.leave(frame);
+            if let (Some(node), Some(known)) = (node, known) {
+                self.remember(node, known, &operand);
+            }
+            let around = stack.last().map_or(Affine::IDENTITY, |parent| parent.map);
+            self.asides.take(aside, &operand, &around);
             if node.is_some() && node == self.root {
                 self.root_result = operand.clone();
             }
             match stack.last_mut() {
-                Some(parent) => parent.operands.push(operand),
+                Some(_) if aside == Aside::Ghost => {}
+                Some(parent) => parent.operands.push((at, operand)),
                 None if self.root.is_some() => return std::mem::replace(&mut self.root_result, Operand::Empty),
                 None => return operand,
             }
@@ -175,16 +172,34 @@ impl<'a, 'r> Walk<'a, 'r> {
         if modifiers.contains(Modifiers::BACKGROUND) {
             self.background += 1;
             self.background_at = self.background_at.or(Some(self.ast.name_at(node)));
-            return Step::Done(None);
+            if self.options.ghosts == Ghosts::Hidden || parent.aside == Aside::Ghost {
+                return Step::Done(None);
+            }
         }
         let is_root = self.root == Some(node);
         let counts = parent.counts || is_root;
-        let (look, map) = if is_root { (Look::default(), Affine::IDENTITY) } else { (parent.look, parent.map) };
+        let (mut look, map) = if is_root { (Look::default(), Affine::IDENTITY) } else { (parent.look, parent.map) };
+        let aside = if modifiers.contains(Modifiers::BACKGROUND) {
+            look = Look::default();
+            Aside::Ghost
+        } else if modifiers.contains(Modifiers::HIGHLIGHT) && self.options.highlights == Highlights::Drawn {
+            Aside::Highlight
+        } else {
+            Aside::No
+        };
+        let is_tool = matches!(parent.operation, Operation::Subtract) && !parent.operands.is_empty();
+        let is_colorless_tool = is_tool && self.options.cut_color == CutColor::Body;
+        let paints = parent.paints && aside != Aside::Ghost && !is_colorless_tool;
         let Some(word) = self.words[self.ast.name_index(node)] else {
             self.unknown(node);
-            let kind = Kind::Unsupported("");
-            return Step::Into(Box::new(self.frame(node, kind, look, map)));
+            return Step::Into(Box::new(self.frame(node, Operation::LeaveOut, look, map)));
         };
+        let remembers = counts && self.root.is_none() && paints && self.memory.is_repeated(self.ast, node);
+        if remembers && let Some((operand, leaves)) = self.memory.recall(self.ast, node, look) {
+            self.leaves += leaves;
+            return Step::Done(Some(operand));
+        }
+        let known = remembers.then(|| Known { look, said: self.report.count(), leaves: self.leaves });
         let args = Args::of(self.ast, node, word, &mut self.report);
         if word.kind.is_leaf() {
             self.refuse_children(node, word);
@@ -192,9 +207,11 @@ impl<'a, 'r> Walk<'a, 'r> {
             if is_root {
                 self.root_result = operand.clone().unwrap_or(Operand::Empty);
             }
-            return Step::Done(operand);
+            self.asides.take(aside, operand.as_ref().unwrap_or(&Operand::Empty), &parent.map);
+            return Step::Done(operand.filter(|_| aside != Aside::Ghost));
         }
-        let mut frame = Frame { counts, ..self.frame(node, word.kind, look, map) };
+        let operation = Operation::of(word.kind, &args, self.options.facets, &mut self.report);
+        let mut frame = Frame { counts, paints, aside, known, ..self.frame(node, operation, look, map) };
         match word.kind {
             Kind::Unsupported(needs) => {
                 if counts {
@@ -202,31 +219,40 @@ impl<'a, 'r> Walk<'a, 'r> {
                 }
                 frame.counts = false;
             }
+            Kind::Color | Kind::Material if !paints => {}
             Kind::Color => frame.look = look.with_color(&args, &mut self.report),
             Kind::Material => frame.look = look.with_material(&args, &mut self.report),
-            Kind::Group | Kind::Difference | Kind::Intersection => {}
-            transform => {
-                frame.placement = placement(transform, &args, &mut self.report);
+            _ => {
+                frame.placement = placement(word.kind, &args, &mut self.report);
+                frame.placement_at = place_of_map(word.kind, &args);
                 if let Placement::Moved(own) = frame.placement {
                     frame.map = map * own;
                 }
             }
         }
+        if counts && matches!(word.kind, Kind::LinearExtrude | Kind::RotateExtrude) && args.names_a_file() {
+            let drawing = self.import(&args);
+            frame.operands.push((args.name_at, drawing));
+        }
         frame.new_look = frame.look != look;
         Step::Into(Box::new(frame))
     }
 
-    fn frame(&self, node: NodeId, kind: Kind, look: Look, map: Affine) -> Frame<'a> {
+    fn frame(&self, node: NodeId, operation: Operation, look: Look, map: Affine) -> Frame<'a> {
         Frame {
             node: Some(node),
-            kind,
+            operation,
             children: self.ast.children(node),
             operands: Vec::new(),
             look,
             new_look: false,
             placement: Placement::Moved(Affine::IDENTITY),
+            placement_at: self.ast.name_at(node),
             map,
             counts: false,
+            paints: true,
+            aside: Aside::No,
+            known: None,
         }
     }
 
@@ -238,79 +264,32 @@ impl<'a, 'r> Walk<'a, 'r> {
         if !counts {
             return Some(Operand::Empty);
         }
-        Some(match self.shapes.leaf(kind, args, &mut self.report) {
-            Some(solid) if shapes::can_be_placed(&solid, map, args.name_at, &mut self.report) => {
-                self.leaves += 1;
-                Operand::Solid(Made::leaf(solid))
-            }
-            _ => Operand::Empty,
-        })
-    }
-
-    /// Combines what the children of a node are.
-    fn leave(&mut self, frame: Frame<'a>) -> Operand {
-        let Frame { node, kind, operands, look, new_look, placement, .. } = frame;
-        let combined = match kind {
-            Kind::Unsupported(_) => return Operand::LeftOut,
-            Kind::Difference => self.difference(node, operands, look),
-            Kind::Intersection => self.intersection(node, operands),
-            _ => combine(BoolOp::Union, operands),
-        };
-        let Operand::Solid(made) = combined else { return combined };
-        let made = match placement {
-            Placement::Moved(map) => Made { solid: made.solid.transform(map), ..made },
-            Placement::Flattened => return Operand::Empty,
-        };
-        match node {
-            Some(node) if new_look && made.bare => {
-                let part = self.parts.of(look.material(), self.ast.name_at(node));
-                Operand::Solid(made.part(part))
-            }
-            _ => Operand::Solid(made),
+        let operand = self.shape(kind, args);
+        // A map that flattens is complained about where it is.
+        if let Operand::Solid(made) = &operand
+            && map.inverse().is_some()
+            && !shapes::can_be_placed(&made.solid, map, args.name_at, &mut self.report)
+        {
+            return Some(Operand::Empty);
         }
+        self.leaves += usize::from(operand.dimension().is_some());
+        Some(operand)
     }
 
-    fn difference(&mut self, node: Option<NodeId>, operands: Vec<Operand>, look: Look) -> Operand {
-        let wall = match operands.first() {
-            // The wall of a hole drilled into red plastic is red.
-            Some(Operand::Solid(first)) => first.first_part.filter(|_| look.is_plain()),
-            Some(Operand::LeftOut) => {
-                self.consequence(node, "the first operand of this difference is left out, and so is all of it");
-                return Operand::LeftOut;
-            }
-            Some(Operand::Empty) | None => return Operand::Empty,
-        };
-        let paint = |(i, operand)| match (operand, wall) {
-            (Operand::Solid(tool), Some(part)) if i > 0 => Operand::Solid(tool.part(part)),
-            (operand, _) => operand,
-        };
-        combine(BoolOp::Difference, operands.into_iter().enumerate().map(paint).collect())
-    }
-
-    fn intersection(&mut self, node: Option<NodeId>, operands: Vec<Operand>) -> Operand {
-        if operands.is_empty() || operands.iter().any(|o| matches!(o, Operand::Empty)) {
-            return Operand::Empty;
-        }
-        if operands.iter().any(|o| matches!(o, Operand::LeftOut)) {
-            self.consequence(node, "an operand of this intersection is left out; it is that of the others");
-        }
-        combine(BoolOp::Intersection, operands)
-    }
-
-    /// Leaving something out changes something else.
-    fn consequence(&mut self, node: Option<NodeId>, message: &str) {
-        if let (true, Some(node)) = (self.skip_unsupported, node) {
-            self.report.push(Diagnostic::warning("left-out-operand", self.ast.name_at(node), message));
+    /// Keeps in mind what a node became, if there was nothing to say about it.
+    fn remember(&mut self, node: NodeId, known: Known, operand: &Operand) {
+        if self.report.count() == known.said {
+            self.memory.remember(self.ast, node, known.look, operand.clone(), self.leaves - known.leaves);
         }
     }
 
     fn unsupported(&mut self, node: NodeId, needs: &str) {
         let name = self.ast.name(node);
         let at = self.ast.name_at(node);
-        let (severity, message) = if self.skip_unsupported {
-            (Severity::Warning, format!("`{name}` cannot be rendered yet; it is left out"))
+        let (severity, message) = if self.options.skip_unsupported {
+            (Severity::Warning, format!("`{name}` cannot be rendered; it is left out"))
         } else {
-            (Severity::Error, format!("`{name}` cannot be rendered yet"))
+            (Severity::Error, format!("`{name}` cannot be rendered"))
         };
         self.report.push(Diagnostic::new(severity, "unsupported-node", at, message).with_help(needs));
         self.skipped.push(Skipped { name: name.to_owned(), at });
@@ -323,7 +302,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             Some(near) => format!("did you mean `{near}`?"),
             None => "modules are not evaluated here; a `.scad` file is, by OpenSCAD".to_owned(),
         };
-        let leave_out = self.skip_unsupported && self.report.dialect == Dialect::Dump;
+        let leave_out = self.options.skip_unsupported && self.report.dialect == Dialect::Dump;
         let (severity, tail) = if leave_out { (Severity::Warning, "; it is left out") } else { (Severity::Error, "") };
         let message = format!("there is no node `{name}`{tail}");
         self.report.push(Diagnostic::new(severity, "unknown-node", at, message).with_help(help));
@@ -346,23 +325,4 @@ enum Step<'a> {
     Into(Box<Frame<'a>>),
     /// With its next sibling; what this one is, if it is an operand at all.
     Done(Option<Operand>),
-}
-
-/// Combines the solids among the operands. Without any, it is left out if some operand is.
-fn combine(op: BoolOp, operands: Vec<Operand>) -> Operand {
-    let left_out = operands.iter().any(|o| matches!(o, Operand::LeftOut));
-    let (mut first_part, mut bare) = (None, false);
-    let mut solids = Vec::with_capacity(operands.len());
-    for operand in operands {
-        if let Operand::Solid(made) = operand {
-            first_part = first_part.or(made.first_part);
-            bare |= made.bare;
-            solids.push(made.solid);
-        }
-    }
-    match (solids.is_empty(), left_out) {
-        (false, _) => Operand::Solid(Made { solid: Solid::combine(op, solids), first_part, bare }),
-        (true, true) => Operand::LeftOut,
-        (true, false) => Operand::Empty,
-    }
 }

@@ -5,7 +5,8 @@
 //! one array of `f64`, and a vector of such vectors (points, faces, matrices) a slice of rows.
 
 use crate::SourceRange;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHasher};
+use std::hash::{Hash, Hasher};
 
 /// A node of the tree: an index in the order of the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -170,7 +171,7 @@ impl Ast {
     }
 
     /// All nodes, in the order of the file: each before its children.
-    pub fn nodes(&self) -> impl ExactSizeIterator<Item = NodeId> + use<> {
+    pub fn nodes(&self) -> impl ExactSizeIterator<Item = NodeId> + DoubleEndedIterator + use<> {
         (0..self.nodes.len() as u32).map(NodeId)
     }
 
@@ -252,6 +253,59 @@ impl Ast {
         }
     }
 
+    /// The node's place in the order of the file, from 0.
+    pub(crate) fn index(&self, node: NodeId) -> usize {
+        node.0 as usize
+    }
+
+    /// For every node a hash of what its subtree says, wherever it is written; larger than 1.
+    pub(crate) fn subtree_hashes(&self) -> Vec<u64> {
+        let mut hashes = vec![0; self.len()];
+        for node in self.nodes().rev() {
+            let mut hasher = FxHasher::default();
+            let data = self.data(node);
+            (data.name, data.modifiers.0, data.args.len).hash(&mut hasher);
+            for arg in self.args(node) {
+                arg.name.hash(&mut hasher);
+                self.hash_value(arg.value, &mut hasher);
+            }
+            for child in self.children(node) {
+                hashes[child.0 as usize].hash(&mut hasher);
+            }
+            hashes[node.0 as usize] = hasher.finish().max(2);
+        }
+        hashes
+    }
+
+    fn hash_value(&self, value: Value, hasher: &mut FxHasher) {
+        let mut pending = vec![value];
+        while let Some(value) = pending.pop() {
+            let numbers = |numbers: &[f64], hasher: &mut FxHasher| {
+                numbers.len().hash(hasher);
+                numbers.iter().for_each(|number| number.to_bits().hash(hasher));
+            };
+            match self.view(value) {
+                View::Undef => 0_u8.hash(hasher),
+                View::Bool(b) => b.hash(hasher),
+                View::Number(v) => v.to_bits().hash(hasher),
+                View::Text(text) => text.hash(hasher),
+                View::Numbers(list) => numbers(list, hasher),
+                View::Rows(rows) => rows.iter().for_each(|row| numbers(row, hasher)),
+                View::List(items) => {
+                    items.len().hash(hasher);
+                    pending.extend(items);
+                }
+            }
+        }
+    }
+
+    /// Whether two subtrees say the same.
+    pub(crate) fn same_subtree(&self, a: NodeId, b: NodeId) -> bool {
+        let len = self.subtree_len(a) as u32;
+        let same_length = len == self.subtree_len(b) as u32;
+        same_length && (0..len).all(|i| self.same_node(NodeId(a.0 + i), self, NodeId(b.0 + i), (a.0, b.0)))
+    }
+
     fn data(&self, node: NodeId) -> &NodeData {
         &self.nodes[node.0 as usize]
     }
@@ -259,19 +313,21 @@ impl Ast {
     /// Whether both say the same, wherever it is written. Numbers are compared by their bits, so NaN equals itself and
     /// -0 is not 0.
     pub fn same_tree(&self, o: &Self) -> bool {
-        let same_node = |(a, b): (NodeId, NodeId)| {
-            let (x, y) = (self.data(a), o.data(b));
-            self.name(a) == o.name(b)
-                && x.modifiers == y.modifiers
-                && x.end == y.end
-                && x.args.len == y.args.len
-                && self
-                    .args(a)
-                    .iter()
-                    .zip(o.args(b))
-                    .all(|(p, q)| self.arg_name(p) == o.arg_name(q) && self.same_value(p.value, o, q.value))
-        };
-        self.len() == o.len() && self.nodes().zip(o.nodes()).all(same_node)
+        self.len() == o.len() && self.nodes().zip(o.nodes()).all(|(a, b)| self.same_node(a, o, b, (0, 0)))
+    }
+
+    /// Whether two nodes say the same, below the `tops` of their subtrees: without what their children say.
+    fn same_node(&self, a: NodeId, o: &Self, b: NodeId, tops: (u32, u32)) -> bool {
+        let (x, y) = (self.data(a), o.data(b));
+        self.name(a) == o.name(b)
+            && x.modifiers == y.modifiers
+            && x.end - tops.0 == y.end - tops.1
+            && x.args.len == y.args.len
+            && self
+                .args(a)
+                .iter()
+                .zip(o.args(b))
+                .all(|(p, q)| self.arg_name(p) == o.arg_name(q) && self.same_value(p.value, o, q.value))
     }
 
     fn same_value(&self, a: Value, o: &Self, b: Value) -> bool {

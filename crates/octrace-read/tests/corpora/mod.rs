@@ -1,7 +1,10 @@
 //! Real models, where there are any: tests that want them say so and pass without.
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
+use octrace_forms::text::FontSource;
+use octrace_read::{Assets, Folder, Source};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// The folder of real models, if it is there: `OCTRACE_CORPORA`, or beside the repository.
 pub fn corpora() -> Option<PathBuf> {
@@ -30,4 +33,26 @@ pub fn openscad_dumps() -> Option<Vec<PathBuf>> {
     }
     files.sort();
     Some(files)
+}
+
+/// The files beside a model, and always the same font, whatever the machine has.
+#[derive(Debug)]
+struct BesideModel(Folder);
+
+static FONTS: LazyLock<FontSource> = LazyLock::new(|| FontSource::files(vec![dejavu::sans::regular().to_vec()]));
+
+impl Assets for BesideModel {
+    fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
+        self.0.read(name)
+    }
+
+    fn fonts(&self) -> &FontSource {
+        &FONTS
+    }
+}
+
+/// The text of a model, with what it names at hand.
+pub fn source(path: &Path) -> Source {
+    let text = std::fs::read(path).expect("a dump can be read");
+    Source::new(path.to_string_lossy(), text).with_assets(BesideModel(Folder::of(path)))
 }
