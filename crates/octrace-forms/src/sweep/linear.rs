@@ -1,12 +1,12 @@
 //! Sweeping along z: OpenSCAD's `linear_extrude`.
 
-use super::SweepError;
 use super::layers::{Diagonal, Ends, Section, Sides};
 use super::slices::{self, Fragments};
+use super::{SweepError, profile};
 use crate::Tolerance;
 use crate::plane::{Affine2, Flat, Outline};
 use octrace::geom::sin_cos_deg;
-use octrace::{Affine, Primitive, Profile, ProfileError, Solid, Vec2, Vec3};
+use octrace::{Affine, Primitive, Solid, Vec2, Vec3};
 use std::sync::Arc;
 
 /// How a flat shape is swept along z.
@@ -65,10 +65,8 @@ fn upright_prism(outline: &Outline, map: &Affine2, height: f64, scale: f64) -> R
             (Affine2::translation(inverse.vector(map.translation)), linear)
         }
     };
-    let profile = match Profile::new(outline.moved(&first, Tolerance::default()).contours) {
-        Ok(profile) => Arc::new(profile),
-        Err(ProfileError::Flat) => return Ok(Solid::empty()),
-        Err(error) => return Err(error.into()),
+    let Some(profile) = profile(&outline.moved(&first, Tolerance::default()), Tolerance::default())? else {
+        return Ok(Solid::empty());
     };
     // Primitives are wide at z = 0; one that is wide at the top stands on its head.
     let (top, wide, up, base) = match scale > 1.0 {

@@ -12,8 +12,11 @@ pub use linear::{LinearExtrude, linear_extrude};
 pub use rotate::{RotateExtrude, rotate_extrude};
 pub use slices::{Fragments, fragments};
 
+use crate::Tolerance;
+use crate::plane::Outline;
 use crate::plane::PlaneError;
-use octrace::{PolyhedronError, ProfileError};
+use octrace::{PolyhedronError, Profile, ProfileError};
+use std::sync::Arc;
 
 /// Why nothing could be swept.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -36,4 +39,19 @@ pub enum SweepError {
     /// The polyhedron is not sound.
     #[error(transparent)]
     Polyhedron(#[from] PolyhedronError),
+}
+
+/// The profile that an outline is; `None` where it has no area.
+///
+/// Curves that all but touch may cross by a rounding of what decided how they hang together. Then chords have to do.
+fn profile(outline: &Outline, tolerance: Tolerance) -> Result<Option<Arc<Profile>>, SweepError> {
+    let made = match Profile::new(outline.contours.clone()) {
+        Err(ProfileError::Crossing { .. }) => Profile::new(outline.polygonised(tolerance).contours),
+        made => made,
+    };
+    match made {
+        Ok(profile) => Ok(Some(Arc::new(profile))),
+        Err(ProfileError::Flat) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
 }

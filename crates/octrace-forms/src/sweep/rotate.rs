@@ -1,13 +1,13 @@
 //! Turning about an axis: OpenSCAD's `rotate_extrude`.
 
-use super::SweepError;
 use super::layers::{Ends, Section, Sides};
 use super::linear::polygons;
 use super::slices::{Fragments, fragments};
+use super::{SweepError, profile};
 use crate::Tolerance;
 use crate::plane::{Affine2, Bounds2, Flat, Outline};
 use octrace::geom::sin_cos_deg;
-use octrace::{Affine, Primitive, Profile, ProfileError, Solid, Vec2, Vec3};
+use octrace::{Affine, Primitive, Solid, Vec2, Vec3};
 use std::sync::Arc;
 
 /// How a flat shape is turned about its y axis, which then is the z axis.
@@ -68,16 +68,13 @@ pub fn rotate_extrude(shape: &Flat, how: &RotateExtrude, tolerance: Tolerance) -
 
 /// Turning a combination is combining what is turned, as far as it is right of the axis.
 fn round(shape: &Flat, how: &RotateExtrude, tolerance: Tolerance) -> Result<Solid, SweepError> {
-    let leaf = |outline: &Arc<Outline>, map: &Affine2| {
+    let leaf = |outline: &Arc<Outline>, map: &Affine2| -> Result<Solid, SweepError> {
         let outline = onto_axis(outline.moved(map, tolerance));
         if outline.bounds().is_none_or(|bounds| bounds.max.x <= 0.0) {
             return Ok(Solid::empty());
         }
-        match Profile::new(outline.contours) {
-            Ok(profile) => Ok(Solid::primitive(Primitive::Revolution(Arc::new(profile)))),
-            Err(ProfileError::Flat) => Ok(Solid::empty()),
-            Err(error) => Err(SweepError::from(error)),
-        }
+        let profile = profile(&outline, tolerance)?;
+        Ok(profile.map_or_else(Solid::empty, |profile| Solid::primitive(Primitive::Revolution(profile))))
     };
     let solid = shape.fold(leaf, |op, solids| Ok(Solid::combine(op, solids)))?;
     if how.is_full() {
