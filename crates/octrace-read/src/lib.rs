@@ -27,7 +27,7 @@ pub use assets::{Assets, Folder, NoAssets};
 pub use diagnostic::{Checked, Diagnostic, Severity};
 pub use lower::{Loaded, Skipped};
 pub use octrace_forms::Tolerance;
-pub use options::{CutColor, Facets, Ghosts, Highlights, ReadOptions, UnknownFacets};
+pub use options::{CutColor, Facets, Ghosts, Highlights, ReadOptions, UnknownCutColor, UnknownFacets};
 pub use source::{Dialect, Source, SourceRange};
 
 use diagnostic::{Collector, has_errors};

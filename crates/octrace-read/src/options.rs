@@ -75,6 +75,28 @@ pub enum CutColor {
     Body,
 }
 
+impl fmt::Display for CutColor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Tool => "tool",
+            Self::Body => "body",
+        })
+    }
+}
+
+/// A word that is not the name of a [`CutColor`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cut faces have the colour of the `tool` or of the `body`, not `{0}`")]
+pub struct UnknownCutColor(pub String);
+
+impl FromStr for CutColor {
+    type Err = UnknownCutColor;
+    fn from_str(word: &str) -> Result<Self, Self::Err> {
+        let named = |color: &Self| color.to_string() == word;
+        [Self::Tool, Self::Body].into_iter().find(named).ok_or_else(|| UnknownCutColor(word.to_owned()))
+    }
+}
+
 /// How to read a file. The default suits both dumps and scenes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {

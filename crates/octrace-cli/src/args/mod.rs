@@ -133,8 +133,8 @@ pub struct ReadArgs {
     #[arg(long)]
     pub highlight: bool,
     /// Which colour a cut face has: that of the solid that cuts, where it has one, or that of the body that is cut
-    #[arg(long, value_name = "WHOSE", default_value = "tool", value_parser = ["tool", "body"])]
-    pub cut_color: String,
+    #[arg(long, value_name = "WHOSE", default_value = "tool", value_parser = names::<CutColor>(["tool", "body"]))]
+    pub cut_color: CutColor,
     /// Mend imported meshes that are not closed, as well as can be, instead of refusing them
     #[arg(long)]
     pub repair: bool,
@@ -336,7 +336,7 @@ impl ReadArgs {
             tolerance: Tolerance { relative: self.tolerance },
             ghosts: if self.show_background { Ghosts::Drawn } else { Ghosts::Hidden },
             highlights: if self.highlight { Highlights::Drawn } else { Highlights::Plain },
-            cut_color: if self.cut_color == "body" { CutColor::Body } else { CutColor::Tool },
+            cut_color: self.cut_color,
             repair: self.repair,
             dialect: None,
         }
