@@ -5,7 +5,7 @@
 
 use super::{Affine2, Bounds2, Outline, PlaneError, combine};
 use crate::Tolerance;
-use octrace::{BoolOp, Solid};
+use octrace::BoolOp;
 use std::sync::Arc;
 
 /// A flat shape, cheap to clone.
@@ -111,17 +111,6 @@ impl Flat {
         Ok(done.pop().expect("every visit leaves one result"))
     }
 
-    /// The solid that comes of the tree where `sweep` makes one of each outline and the map that moves it to its place.
-    pub fn lift(&self, mut sweep: impl FnMut(&Arc<Outline>, &Affine2) -> Solid) -> Solid {
-        let combine = |op, solids| Ok(Solid::combine(op, solids));
-        let lifted: Result<Solid, std::convert::Infallible> =
-            self.fold(|outline, map| Ok(sweep(outline, map)), combine);
-        match lifted {
-            Ok(solid) => solid,
-            Err(never) => match never {},
-        }
-    }
-
     /// The boundary of the tree.
     ///
     /// # Errors
@@ -195,10 +184,11 @@ mod tests {
         assert_eq!(area(&cut), 14.0);
         assert!(!cut.only_unites());
         let mut seen = Vec::new();
-        cut.lift(|outline, _| {
+        let note = |outline: &Arc<Outline>, _: &Affine2| {
             seen.push(outline.area());
-            Solid::block()
-        });
+            Ok::<_, PlaneError>(())
+        };
+        cut.fold(note, |_, _| Ok(())).expect("nothing fails");
         assert_eq!(seen, [16.0, 1.0, 1.0]);
         let common = Flat::combined(BoolOp::Intersection, [square(0.0, 4.0), square(3.0, 2.0), cut]);
         assert_eq!(area(&common), 2.0);
