@@ -65,6 +65,8 @@ pub struct Stats<'a> {
     pub traversal: String,
     /// Time.
     pub seconds: Seconds,
+    /// The most memory that the process has had at a time, in bytes, where the system tells.
+    pub peak_memory_bytes: Option<u64>,
     /// Rays by kind.
     pub rays: Rays,
     /// Rays of all kinds per second of rendering, in millions.
@@ -81,6 +83,22 @@ pub struct Stats<'a> {
     pub octree: Option<Octree>,
     /// What the import tolerance did.
     pub snap: Snap,
+}
+
+/// The most memory that this process has had at a time, in bytes, as far as the system tells.
+#[cfg(unix)]
+pub fn peak_memory_bytes() -> Option<u64> {
+    use nix::sys::resource::{UsageWho, getrusage};
+    // Apple's systems count bytes, Linux and the BSDs units of 1,024.
+    const UNIT: u64 = if cfg!(target_vendor = "apple") { 1 } else { 1024 };
+    let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
+    u64::try_from(usage.max_rss()).ok().filter(|&peak| peak > 0).map(|peak| peak * UNIT)
+}
+
+/// Other systems are not asked.
+#[cfg(not(unix))]
+pub fn peak_memory_bytes() -> Option<u64> {
+    None
 }
 
 /// Rays by kind.

@@ -68,6 +68,9 @@ fn statistics_are_one_json_object() {
         assert!(stats["seconds"][stage].is_f64(), "{stage}");
     }
     assert!(stats["octree"]["leaves"].is_u64());
+    // More than what the picture alone takes, and less than any machine has.
+    let peak = stats["peak_memory_bytes"].as_u64();
+    assert!(peak.map_or(!cfg!(unix), |bytes| (64 * 48 * 16..1 << 36).contains(&bytes)), "{peak:?}");
     let canonical = folder.run(&["render", "plate.csg", SMALL, "--accel=none", "--stats=json"]).expect(0);
     assert!(canonical.json()["octree"].is_null());
 }

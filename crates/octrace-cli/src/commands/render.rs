@@ -6,7 +6,7 @@ use crate::input;
 use crate::output::{Destination, say, write_stdout};
 use crate::picture::{Alpha, encode_png};
 use crate::session::Session;
-use crate::stats::{Rays, Seconds, Stats, Stopwatch};
+use crate::stats::{Rays, Seconds, Stats, Stopwatch, peak_memory_bytes};
 use octrace::film::{Background, RenderStats, View, render};
 use octrace::{Scene, Tracer};
 use octrace_read::Loaded;
@@ -124,6 +124,7 @@ fn stats<'a>(args: &RenderArgs, file: &'a str, tracer: &Tracer, seconds: Seconds
         accel: args.trace.accel.to_string(),
         traversal: args.trace.traversal.to_string(),
         seconds,
+        peak_memory_bytes: peak_memory_bytes(),
         rays,
         mrays_per_second: rays.total as f64 / seconds.render.max(f64::MIN_POSITIVE) / 1e6,
         cells_visited: counts.counters.cells,
