@@ -170,6 +170,7 @@ goldens! {
     bearing_block: "bearing-block.oct", From::Scene;
     classic: "classic.oct", From::Scene;
     die: "die.oct", From::Scene;
+    forms: "forms.oct", From::Scene;
     inlay: "inlay.oct", From::Scene;
     lens: "lens.oct", From::Scene;
     shapes: "shapes.oct", From::Scene;
