@@ -5,6 +5,9 @@ use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
 use octrace::trace::Scratch;
 use octrace::{Accel, Bounds, Ray, Scene, Tracer, TracerOptions, Vec3};
+use octrace_forms::files::drawing::{self, DrawingFormat, DrawingOptions};
+use octrace_forms::files::height::{HeightField, Placement, Shades};
+use octrace_forms::files::mesh::{self, MeshFormat, RawMesh};
 use octrace_read::{Diagnostic, Dialect, Facets, ReadOptions, Severity, Source, read_scene, syntax};
 
 /// Reading ends, places are places of the text, and what was read without an error reads the same after printing.
@@ -36,6 +39,35 @@ pub fn trace(bytes: &[u8]) {
             trace_both(&loaded.scene);
         }
     }
+}
+
+/// As a file of any format, bytes are an error or a thing that hangs together; and what closes a mesh makes a solid of it.
+pub fn files(bytes: &[u8]) {
+    for format in [MeshFormat::Stl, MeshFormat::Off, MeshFormat::Obj, MeshFormat::Amf, MeshFormat::ThreeMf] {
+        let Ok(mesh) = mesh::read(format, bytes) else { continue };
+        check_mesh(&mesh);
+        let (repaired, _) = mesh.clone().repaired();
+        check_mesh(&repaired);
+        if let Ok(polyhedron) = mesh.into_polyhedron() {
+            assert!(polyhedron.volume() >= 0.0, "{format:?}: the inside is out");
+        }
+        // An error says what is still wrong; that it comes back at all is the law.
+        let _ = repaired.into_polyhedron();
+    }
+    for format in [DrawingFormat::Dxf, DrawingFormat::Svg] {
+        let Ok(drawing) = drawing::read(format, bytes, &DrawingOptions::default()) else { continue };
+        for edge in drawing.shapes.iter().flatten().flatten() {
+            assert!(edge.from.x.is_finite() && edge.from.y.is_finite(), "{format:?}: {edge:?}");
+        }
+    }
+    if let Ok(field) = HeightField::read(bytes, Shades::default()) {
+        check_mesh(&field.body(Placement::Corner));
+    }
+}
+
+fn check_mesh(mesh: &RawMesh) {
+    assert!(mesh.points.iter().all(|point| point.is_finite()), "a corner is nowhere");
+    assert!(mesh.faces.iter().flatten().all(|&corner| (corner as usize) < mesh.points.len()), "a corner is missing");
 }
 
 /// Larger scenes take too long to learn from.

@@ -46,6 +46,25 @@ fn any_input_is_traced() {
     }
 }
 
+#[test]
+fn any_bytes_are_a_file_or_an_error() {
+    let seeds = files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds"));
+    assert!(seeds.len() >= 9, "{} seeds", seeds.len());
+    for seed in seeds.iter().map(|path| fs::read(path).expect("a seed can be read")) {
+        laws::files(&seed);
+        for part in 1..16 {
+            let at = seed.len() * part / 16;
+            laws::files(&seed[..at]);
+            laws::files(&seed[at..]);
+            for wrong in [b'0', b'-', b'9', b'\n', 0, 255] {
+                let mut damaged = seed.clone();
+                damaged[at] = wrong;
+                laws::files(&damaged);
+            }
+        }
+    }
+}
+
 /// What fuzzing finds goes here, with a name.
 #[test]
 fn extreme_numbers_are_traced() {
