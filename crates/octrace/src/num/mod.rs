@@ -1,8 +1,10 @@
-//! Numbers: finding roots, powers.
+//! Numbers: finding roots, powers, linear programs.
 
+mod linear;
 mod power;
 mod roots;
 
+pub(crate) use linear::{HalfSpace, farthest};
 pub use power::power_of_fraction;
 pub(crate) use power::series as power_series;
 pub use roots::{bracketed_root, cubic_roots};

@@ -5,6 +5,7 @@
 //! answers can be compared bit for bit.
 
 mod crossings;
+mod enclosure;
 mod extent;
 mod octants;
 mod placed;

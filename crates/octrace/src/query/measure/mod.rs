@@ -1,9 +1,11 @@
 //! How much is there, and where: volume, centroid and bounding box.
 //!
-//! First the box: corners, ridges and round tops are searched for with rays, and octree-like cells prove that nothing
-//! sticks out further (`extent`). Then the volume, by adding up the chords of parallel rays over that box (`volume`).
+//! First the box: corners, ridges and round tops are searched for with rays, and boxes cut smaller and smaller prove that
+//! nothing sticks out further (`extent`). Then the volume, by adding up the chords of parallel rays over that box (`volume`).
 
 mod body;
+mod ceiling;
+mod climb;
 mod extent;
 mod shadow;
 mod volume;

@@ -1,8 +1,9 @@
 use super::body::Chord;
 use super::*;
 use crate::exec::CancelToken;
-use crate::geom::Ray;
+use crate::geom::{Affine, Ray, sin_cos_deg};
 use crate::model::Solid;
+use crate::primitive::Polyhedron;
 use crate::trace::TracerOptions;
 use std::f64::consts::PI;
 
@@ -88,6 +89,88 @@ fn nothing_has_no_volume_and_no_box() {
     }
 }
 
+/// The box of what is thin, and its volume as far as few rays tell it: by hand.
+fn check_thin(name: &str, solid: &Solid, volume: f64, bbox: [[f64; 3]; 2]) {
+    let options = MeasureOptions { tolerance: 1e-3, max_rays: 200_000 };
+    let m = measure(&tracer(solid), &options, &Exec::default()).unwrap();
+    let [min, max] = bbox.map(Vec3::from);
+    let size = (max - min).length();
+    assert_near(m.bbox.min, min, 1e-6 * size);
+    assert_near(m.bbox.max, max, 1e-6 * size);
+    assert!(m.bbox_error <= 1e-5 * size, "{name}: {m:?}");
+    assert!(!m.converged || (m.volume - volume).abs() <= 1e-3 * volume, "{name}: {m:?}");
+}
+
+#[test]
+fn thin_remainders_have_boxes() {
+    let block = |size: [f64; 3]| Solid::block().scale(size);
+    // A wedge between two faces at a thousandth of a degree.
+    let cut = block([200.0, 20.0, 20.0]).translate([-50.0, -5.0, 0.0]).rotate([0.0, -0.001, 0.0]);
+    let high = 100.0 * 0.001_f64.to_radians();
+    check_thin("wedge", &(block([100.0, 10.0, 10.0]) - cut), 500.0 * high, [[0.0; 3], [100.0, 10.0, high]]);
+    for thin in [1e-3, 1e-6] {
+        let volume = 100.0 * thin;
+        let wall = block([10.0; 3]) - block([10.0, 10.0, 20.0]).translate([thin, 0.0, -5.0]);
+        check_thin("wall", &wall, volume, [[0.0; 3], [thin, 10.0, 10.0]]);
+        let shifted = block([10.0; 3]).translate([thin, 0.0, 0.0]);
+        check_thin(
+            "what two have in common",
+            &(block([10.0; 3]) & shifted.clone().translate([10.0 - 2.0 * thin, 0.0, 0.0])),
+            volume,
+            [[10.0 - thin, 0.0, 0.0], [10.0, 10.0, 10.0]],
+        );
+        // Tilted: 10 wide, 10 high, `thin` thick, turned by 30 degrees about z.
+        let foil = (block([10.0; 3]) - shifted).rotate([0.0, 0.0, 30.0]);
+        let (s, c) = (0.5, 0.75_f64.sqrt());
+        check_thin("foil", &foil, volume, [[-10.0 * s, 0.0, 0.0], [thin * c, thin * s + 10.0 * c, 10.0]]);
+        // A needle, upright and then lying askew.
+        let four = |x: f64, y: f64| block([20.0; 3]).translate([x, y, -5.0]);
+        let needle = block([10.0; 3]) - Solid::union([four(thin, -5.0), four(-5.0, thin)]);
+        check_thin("needle", &needle, 10.0 * thin * thin, [[0.0; 3], [thin, thin, 10.0]]);
+        let lying = needle.rotate([0.0, 30.0, 0.0]);
+        check_thin(
+            "lying needle",
+            &lying,
+            10.0 * thin * thin,
+            [[0.0, 0.0, -thin * s], [thin * c + 10.0 * s, thin, 10.0 * c]],
+        );
+    }
+}
+
+/// A ball of flat faces, as OpenSCAD makes it: rings of corners between the poles.
+fn faceted_ball(rings: u32, around: u32) -> (Vec<Vec3>, Polyhedron) {
+    let corner = |i: u32, j: u32| {
+        let ring = sin_cos_deg(180.0 * (f64::from(i) + 0.5) / f64::from(rings));
+        let round = sin_cos_deg(360.0 * f64::from(j) / f64::from(around));
+        Vec3::new(ring.0 * round.1, ring.0 * round.0, ring.1)
+    };
+    let corners: Vec<Vec3> = (0..rings).flat_map(|i| (0..around).map(move |j| corner(i, j))).collect();
+    let mut faces: Vec<Vec<u32>> =
+        vec![(0..around).rev().collect(), (0..around).map(|j| (rings - 1) * around + j).collect()];
+    for (i, j) in (0..rings - 1).flat_map(|i| (0..around).map(move |j| (i, j))) {
+        let k = (j + 1) % around;
+        faces.push(vec![i * around + j, i * around + k, (i + 1) * around + k, (i + 1) * around + j]);
+    }
+    let ball = Polyhedron::new(corners.clone(), faces).expect("it is closed");
+    (corners, ball)
+}
+
+#[test]
+fn the_box_of_flat_faces_and_holes_is_proven_closely() {
+    let (corners, ball) = faceted_ball(15, 30);
+    let turn = [20.0, 35.0, 50.0];
+    let map = Affine::rotation_deg(turn.into());
+    let hole =
+        |tilt: f64| Solid::cylinder().scale([0.3, 0.3, 4.0]).translate([0.0, 0.0, -2.0]).rotate([tilt, 0.0, 0.0]);
+    // Holes where no corner is the farthest; seams between flat faces and the holes' walls are everywhere.
+    let drilled = (Solid::primitive(ball) - hole(0.0) - hole(45.0)).rotate(turn);
+    let m = measured(&drilled, 1e-2);
+    let bounds = Bounds::around(corners.iter().map(|&p| map.point(p)));
+    assert_near(m.bbox.min, bounds.min, 1e-6);
+    assert_near(m.bbox.max, bounds.max, 1e-6);
+    assert!(m.bbox_error <= 1e-6, "{m:?}");
+}
+
 #[test]
 fn unbounded_solids_are_refused() {
     let error = measure(&tracer(&(Solid::half_space() - Solid::block())), &MeasureOptions::default(), &Exec::default());
@@ -153,6 +236,10 @@ impl Body for Haunted {
     fn narrow(&self, (): &(), b: &Bounds) -> Option<()> {
         let nearest = b.min.max(Vec3::ZERO).min(b.max);
         (nearest.length() <= 1.0 || (b.min.z <= 1.5 && 1.5 <= b.max.z)).then_some(())
+    }
+
+    fn ceiling(&self, (): &(), b: &Bounds, up: Vec3) -> Option<Vec3> {
+        Some(Vec3::from([0, 1, 2].map(|axis| if up[axis] < 0.0 { b.min[axis] } else { b.max[axis] })))
     }
 }
 
