@@ -1,6 +1,7 @@
 //! Whether contours cross, each other or themselves. They may touch: in corners, along edges, where arcs are tangent.
 
 use super::ProfileError;
+use super::corner::crosses_in_corner;
 use super::piece::{Circle, Piece, orientation};
 use crate::geom::{Bounds, Vec2, Vec3};
 use crate::primitive::Bvh;
@@ -8,7 +9,7 @@ use std::ops::ControlFlow;
 
 /// Where arcs cross something is computed, not decided exactly: crossings nearer than this to the end of an edge, in parts of
 /// the profile's size, and angles and overlaps smaller than this, are touches.
-const TOUCH: f64 = 1e-7;
+pub(super) const TOUCH: f64 = 1e-7;
 
 /// Finds two edges that cross. `owners` tells of every loop which contour it belongs to.
 pub(super) fn check(loops: &[Vec<Piece>], owners: &[usize]) -> Result<(), ProfileError> {
@@ -26,17 +27,19 @@ pub(super) fn check(loops: &[Vec<Piece>], owners: &[usize]) -> Result<(), Profil
         })
         .collect();
     let tree = Bvh::build(&boxes);
-    let size = tree.bounds().diagonal();
+    let touch = TOUCH * tree.bounds().diagonal();
     for (i, piece) in pieces.iter().enumerate() {
-        let meets = |other: &Bounds| !boxes[i].intersection(*other).is_empty();
+        let reach = Bounds::new(boxes[i].min - Vec3::splat(touch), boxes[i].max + Vec3::splat(touch));
+        let meets = |other: &Bounds| !reach.intersection(*other).is_empty();
         let found = tree.visit(meets, |j| {
             let j = j as usize;
             if j == i || !meets(&boxes[j]) {
                 return ControlFlow::Continue(());
             }
-            let path = [&pieces[edges[j].before], &pieces[j]];
-            let at = if j > i { crossing(piece, &pieces[j], TOUCH * size) } else { None };
-            match at.or_else(|| passes(&pieces[edges[i].before], piece, path)) {
+            let (before, path) = (&pieces[edges[i].before], [&pieces[edges[j].before], &pieces[j]]);
+            let at = if j > i { crossing(piece, &pieces[j], touch) } else { None };
+            let at = at.or_else(|| passes(before, piece, path));
+            match at.or_else(|| crosses_in_corner(before, piece, path, touch)) {
                 Some(at) => ControlFlow::Break((edges[i].owner, edges[j].owner, at)),
                 None => ControlFlow::Continue(()),
             }
@@ -55,7 +58,8 @@ struct Place {
     before: usize,
 }
 
-/// Where a path of two lines crosses with its corner: in a line, or in the corner before that.
+/// Where a path of two lines crosses with its corner: in a line, or in the corner before that. (Where there are arcs, see
+/// [`corner`](super::corner).)
 fn passes(before: &Piece, line: &Piece, path: [&Piece; 2]) -> Option<Vec2> {
     let at = path[1].from;
     if !(line.is_line() && path.iter().all(|piece| piece.is_line())) || at == line.to {

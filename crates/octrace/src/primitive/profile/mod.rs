@@ -7,7 +7,9 @@
 mod chain;
 mod clean;
 mod clear;
+mod corner;
 mod crossing;
+mod cut;
 mod nesting;
 mod outline;
 mod piece;
