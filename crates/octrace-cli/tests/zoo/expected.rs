@@ -13,8 +13,6 @@ pub struct Expected {
     pub probes: Vec<Probe>,
     /// Pictures.
     pub sights: Vec<Sight>,
-    /// How many pixels are known to stay dark that should not; none where a file does not say so.
-    pub dark: usize,
     /// All colours that are named.
     pub colors: Vec<String>,
 }
@@ -97,7 +95,6 @@ impl Expected {
         let (what, rest) = line.split_once(' ')?;
         match what {
             "volume" => self.volume = Some(rest.parse().ok()?),
-            "dark" => self.dark = rest.parse().ok()?,
             "box" => self.extent = Some(extent(rest)?),
             "ray" => self.probes.push(probe(rest)?),
             "along" | "from" => self.sights.push(sight(line)?),

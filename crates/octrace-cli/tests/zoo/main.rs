@@ -8,7 +8,6 @@
 //! | `ray [0, 0, 9] [0, 0, -1]: red 8..9 blue` | the spans of that whole line, with the colours seen at their ends; `nothing` |
 //! | `along [0, 0, -1]: red 1, nothing 2; faces 3` | an orthographic view of everything, in that direction |
 //! | `from [9, 0, 0] to [0, 0, 0] high 4: ...` | an orthographic view of that height |
-//! | `dark 2` | so many pixels are known to be in shadow that should not be: a defect as it stands |
 //!
 //! Spans are separated by commas; they and boxes may end with `within 1e-5`; an end at infinity has the colour `none`; transparent
 //! bodies have spans of their own. A view names each colour that is seen and in how many connected regions: one speck

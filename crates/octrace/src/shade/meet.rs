@@ -2,10 +2,10 @@
 
 use super::light::EightSeen;
 use super::materials::EightMaterials;
-use super::whitted::{OFFSET, Whitted};
+use super::whitted::{MOST_OFFSET, OFFSET, Whitted};
 use crate::geom::Vec3;
 use crate::trace::lanes::{F64s, Isa, Mask, Stored, Vector};
-use crate::trace::{EightHits, EightRays, Task, points};
+use crate::trace::{EightHits, EightPoints, EightRays, Task, points};
 
 /// What eight rays meet, ready to be lit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,14 +68,14 @@ impl Task for Meet<'_> {
 /// As [`Whitted::met`], but for the material.
 #[inline(always)]
 fn surface<I: Isa>(integrator: &Whitted, rays: &EightRays, hits: &EightHits, met: &mut EightMet) {
-    let (position, normal) = points::<I>(integrator.tracer(), rays, hits);
+    let EightPoints { position, normal, rounding } = points::<I>(integrator.tracer(), rays, hits);
     let direction = Vector::<F64s<I>>::load(&rays.direction);
     let (unit, found) = direction.normalized();
     let toward_viewer = -Vector::select(found, unit, Vector::from_one(Vec3::Z));
     let from_behind = normal.dot(toward_viewer).lt(F64s::zero());
     let normal = Vector::select(from_behind, -normal, normal);
     let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
-    let offset = offset::<I>(integrator, direction, t, position);
+    let offset = offset::<I>(integrator, direction, t, position, rounding);
     met.toward_viewer = toward_viewer.stored();
     met.normal = normal.stored();
     met.above = (position + normal * offset).stored();
@@ -89,7 +89,10 @@ pub(super) fn offset<I: Isa>(
     direction: Vector<F64s<I>>,
     t: F64s<I>,
     position: Vector<F64s<I>>,
+    rounding: F64s<I>,
 ) -> F64s<I> {
     let travelled = t * direction.max_abs();
-    F64s::splat(OFFSET) * F64s::splat(integrator.size()).max(position.max_abs()).max(travelled)
+    let most = F64s::splat(MOST_OFFSET) * F64s::splat(integrator.size()).max(position.max_abs()).max(travelled);
+    let offset = F64s::splat(OFFSET) * rounding;
+    (offset.gt(F64s::zero()) & offset.lt(most)).select(offset, most)
 }

@@ -11,7 +11,7 @@ use super::wave::Workshop;
 use super::whitted::{LEAST_WEIGHT, MAX_SHADOW_CROSSINGS, Whitted};
 use crate::model::Light;
 use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
-use crate::trace::{EightHits, EightRays, Task, points};
+use crate::trace::{EightHits, EightPoints, EightRays, Task, points};
 
 /// The memory of a worker for shadow rays.
 #[derive(Debug, Default)]
@@ -123,12 +123,12 @@ impl Task for Pass<'_> {
 /// On from the far side of the surface, towards the same light.
 #[inline(always)]
 fn go_on<I: Isa>(integrator: &Whitted, is_bounded: bool, passes: Mask<I>, hits: &EightHits, rays: &mut EightRays) {
-    let (position, normal) = points::<I>(integrator.tracer(), rays, hits);
+    let EightPoints { position, normal, rounding } = points::<I>(integrator.tracer(), rays, hits);
     let (origin, direction) = (Vector::<F64s<I>>::load(&rays.origin), Vector::<F64s<I>>::load(&rays.direction));
     let against = normal.dot(direction).lt(F64s::zero());
     let along = Vector::select(against, -normal, normal);
     let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
-    let next = position + along * offset::<I>(integrator, direction, t, position);
+    let next = position + along * offset::<I>(integrator, direction, t, position, rounding);
     rays.origin = Vector::select(passes, next, origin).stored();
     rays.lanes = passes.bits();
     if is_bounded {

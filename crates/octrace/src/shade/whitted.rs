@@ -25,16 +25,20 @@ pub(crate) struct Whitted<'a> {
     /// Index of refraction inside each body of the tracer.
     body_ior: Vec<f64>,
     max_bounces: u32,
-    /// How far new rays start off the surface, per unit of the numbers involved.
+    /// Of everything bounded.
     size: f64,
 }
 
 /// Rays that contribute less than this are not traced: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
 pub(super) const LEAST_WEIGHT: f64 = 1.0 / 8192.0;
 
-/// New rays start this far off their surface, relative to coordinates and distances: some 2^20 roundings, far more than a
-/// hit may be off, far less than one sees.
-pub(super) const OFFSET: f64 = 1.0 / (1_u64 << 32) as f64;
+/// New rays start this far off their surface, relative to what rounding may put it off there ([`SurfacePoint::rounding`], in
+/// units of [`f64::EPSILON`]): 2^12 times as far. So tiny things cast shadows beside huge ones, and far from the origin.
+pub(super) const OFFSET: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// And at most this far, relative to the scene's size, coordinates and distances: some 2^20 roundings. That is where new rays
+/// start where first order says nothing, at apexes and where maps squash.
+pub(super) const MOST_OFFSET: f64 = 1.0 / (1_u64 << 32) as f64;
 
 /// A shadow ray may pass this many transparent surfaces.
 pub(super) const MAX_SHADOW_CROSSINGS: u32 = 64;
@@ -239,7 +243,9 @@ impl<'a> Whitted<'a> {
     /// How far a ray that starts at a hit must start off the surface, so as not to meet it again.
     fn offset(&self, ray: &Ray, hit: &Hit, point: &SurfacePoint) -> f64 {
         let travelled = hit.t * ray.direction.max_abs();
-        OFFSET * self.size.max(point.position.max_abs()).max(travelled)
+        let most = MOST_OFFSET * self.size.max(point.position.max_abs()).max(travelled);
+        let offset = OFFSET * point.rounding;
+        if offset > 0.0 && offset < most { offset } else { most }
     }
 }
 

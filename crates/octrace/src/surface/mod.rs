@@ -11,6 +11,7 @@ mod octants;
 mod placed;
 mod plane;
 mod quadric;
+mod rounding;
 mod torus;
 
 pub use crossings::{Crossings, Sides};

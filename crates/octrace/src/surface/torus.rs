@@ -177,8 +177,13 @@ impl Torus {
 
     /// See [`Surface::gradient`](super::Surface::gradient). Zero on the ring's circle.
     pub fn gradient(&self, p: Vec3) -> Vec3 {
+        self.to_local.transposed_vector(self.local_gradient(p))
+    }
+
+    /// The same in the torus' own coordinates.
+    pub(super) fn local_gradient(&self, p: Vec3) -> Vec3 {
         let q = self.to_local.point(p);
-        self.to_local.transposed_vector(ring_normal(q, flat_length(q.x, q.y), self.kind.ring()) * 2.0)
+        ring_normal(q, flat_length(q.x, q.y), self.kind.ring()) * 2.0
     }
 
     /// See [`Surface::distance`](super::Surface::distance).

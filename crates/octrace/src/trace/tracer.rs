@@ -32,6 +32,8 @@ pub struct SurfacePoint {
     pub position: Vec3,
     /// The finished solid's outward unit normal; against the ray at a cone's very apex.
     pub normal: Vec3,
+    /// How far rounding may have put the point off the surface: see [`Surface::rounding`].
+    pub rounding: f64,
     /// The part that the surface belongs to, if to any.
     pub part: Option<PartId>,
 }
@@ -161,7 +163,9 @@ impl Tracer {
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let position = ray.at(hit.t);
         let (surface, offset) = self.catalog.surface(hit.surface);
-        let gradient = surface.gradient(Ray { origin: ray.origin - offset, ..*ray }.at(hit.t));
+        let local = Ray { origin: ray.origin - offset, ..*ray }.at(hit.t);
+        let gradient = surface.gradient(local);
+        let rounding = surface.rounding(local, ray.origin.abs() + (ray.direction * hit.t).abs());
         let normal = match gradient.normalized() {
             Some(normal) if hit.flipped => -normal,
             Some(normal) => normal,
@@ -170,7 +174,7 @@ impl Tracer {
                 if hit.entering { against } else { -against }
             }
         };
-        SurfacePoint { position, normal, part: self.catalog.leaves[hit.leaf as usize].part }
+        SurfacePoint { position, normal, rounding, part: self.catalog.leaves[hit.leaf as usize].part }
     }
 
     /// A box around everything that is bounded; empty where nothing is.

@@ -27,7 +27,7 @@ pub use dispatch::Backend;
 pub(crate) use dispatch::Task;
 pub(crate) use eight::{EightHits, EightRays};
 pub use lambert::{Brightness, Told};
-pub(crate) use points::points;
+pub(crate) use points::{EightPoints, points};
 pub use stream::RayTo;
 
 use super::prepared::Prepared;

@@ -7,17 +7,25 @@ use crate::geom::Vec3;
 use crate::surface::{Quadric, Surface};
 use crate::trace::Tracer;
 
-/// Points, and the finished solid's outward unit normals there. Where nothing is met: where rays start, and zero.
+/// Where eight rays meet surfaces.
+pub(crate) struct EightPoints<I: Isa> {
+    /// Where nothing is met: where rays start.
+    pub position: Vector<F64s<I>>,
+    /// The finished solid's outward unit normal; zero where nothing is met.
+    pub normal: Vector<F64s<I>>,
+    /// See [`SurfacePoint::rounding`](crate::trace::SurfacePoint).
+    pub rounding: F64s<I>,
+}
+
+/// Points, normals and roundings.
 #[inline(always)]
-pub(crate) fn points<I: Isa>(
-    tracer: &Tracer,
-    rays: &EightRays,
-    hits: &EightHits,
-) -> (Vector<F64s<I>>, Vector<F64s<I>>) {
+pub(crate) fn points<I: Isa>(tracer: &Tracer, rays: &EightRays, hits: &EightHits) -> EightPoints<I> {
     let (o, d) = (Vector::<F64s<I>>::load(&rays.origin), Vector::<F64s<I>>::load(&rays.direction));
     let t = Mask::from_bits(hits.met).select(F64s::load(&hits.t), F64s::zero());
     let position = o + d * t;
+    let reach = abs::<I>(o) + abs::<I>(d * t);
     let mut normal = Vector::from_one(Vec3::ZERO);
+    let mut rounding = F64s::zero();
     let mut unusual = 0;
     let mut left = hits.met;
     while left != 0 {
@@ -26,50 +34,74 @@ pub(crate) fn points<I: Isa>(
         let same = left & !I::differing(&hits.surfaces, surface);
         left &= !same;
         let (surface, offset) = tracer.catalog.surface(surface);
-        let (unit, usual) = match surface {
+        let (unit, off, usual) = match surface {
             Surface::Plane(plane) => match plane.normal.normalized() {
-                Some(unit) => (Vector::from_one(unit), u8::MAX),
-                None => (normal, 0),
+                Some(unit) => {
+                    let off = Vector::from_one(plane.normal.abs()).dot(reach) + F64s::splat(plane.offset.abs());
+                    (Vector::from_one(unit), off, u8::MAX)
+                }
+                None => (normal, rounding, 0),
             },
             Surface::Quadric(quadric) => {
-                let (unit, usual) = gradient(quadric, o.minus::<I>(offset) + d * t).normalized();
-                (unit, usual.bits())
+                let (gradient, off) = gradient::<I>(quadric, o.minus::<I>(offset) + d * t, reach);
+                let (unit, usual) = gradient.normalized();
+                (unit, off / gradient.dot(gradient).sqrt(), usual.bits())
             }
-            Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (normal, 0),
+            Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (normal, rounding, 0),
         };
         unusual |= same & !usual;
-        normal = Vector::select(Mask::from_bits(same), unit, normal);
+        let same = Mask::from_bits(same);
+        normal = Vector::select(same, unit, normal);
+        rounding = same.select(off, rounding);
     }
     normal = Vector::select(Mask::from_bits(hits.flipped), -normal, normal);
     if unusual != 0 {
-        let mut stored = normal.stored();
-        set_normals(tracer, rays, hits, unusual, &mut stored);
-        normal = Vector::load(&stored);
+        let (mut normals, mut roundings) = (normal.stored(), rounding.stored());
+        set_unusual(tracer, rays, hits, unusual, &mut normals, &mut roundings);
+        (normal, rounding) = (Vector::load(&normals), F64s::load(&roundings));
     }
-    (position, normal)
+    EightPoints { position, normal, rounding }
 }
 
-/// As [`Quadric::gradient`].
 #[inline(always)]
-fn gradient<I: Isa>(quadric: &Quadric, p: Vector<F64s<I>>) -> Vector<F64s<I>> {
-    let (s, _) = quadric.kind.coefficients();
+fn abs<I: Isa>(v: Vector<F64s<I>>) -> Vector<F64s<I>> {
+    Vector::new(v.x.abs(), v.y.abs(), v.z.abs())
+}
+
+/// As [`Quadric::gradient`], and what roundings make of the equation: as [`Surface::rounding`] but for the division.
+#[inline(always)]
+fn gradient<I: Isa>(quadric: &Quadric, p: Vector<F64s<I>>, reach: Vector<F64s<I>>) -> (Vector<F64s<I>>, F64s<I>) {
+    let (s, c0) = quadric.kind.coefficients();
     let q = point::<I, F64s<I>>(&quadric.to_local, p);
     let two = F64s::splat(2.0);
     let n = Vector::new(two * q.x, two * q.y, F64s::splat(2.0 * s) * q.z);
     let [x, y, z] = quadric.to_local.rows;
+    let translation = Vector::<F64s<I>>::from_one(quadric.to_local.translation.abs());
+    let (far_x, far_y) = (Vector::<F64s<I>>::from_one(x.abs()), Vector::<F64s<I>>::from_one(y.abs()));
+    let far_z = Vector::<F64s<I>>::from_one(z.abs());
+    let far = Vector::new(far_x.dot(reach), far_y.dot(reach), far_z.dot(reach)) + translation;
+    let off = abs::<I>(n).dot(far) + F64s::splat(c0.abs());
     let (x, y, z) = (Vector::<F64s<I>>::from_one(x), Vector::from_one(y), Vector::from_one(z));
-    x * n.x + y * n.y + z * n.z
+    (x * n.x + y * n.y + z * n.z, off)
 }
 
-/// Sets the normals of some lanes to what scalar code says.
+/// Sets the normals and roundings of some lanes to what scalar code says.
 #[cold]
 #[inline(never)]
-fn set_normals(tracer: &Tracer, rays: &EightRays, hits: &EightHits, lanes: u8, normal: &mut [Stored; 3]) {
+fn set_unusual(
+    tracer: &Tracer,
+    rays: &EightRays,
+    hits: &EightHits,
+    lanes: u8,
+    normal: &mut [Stored; 3],
+    rounding: &mut Stored,
+) {
     for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
         let Some((_, hit)) = hits.hit(lane) else { continue };
-        let unit = tracer.surface_point(&rays.ray(lane), &hit).normal;
+        let point = tracer.surface_point(&rays.ray(lane), &hit);
         for axis in 0..3 {
-            normal[axis].0[lane] = unit[axis];
+            normal[axis].0[lane] = point.normal[axis];
         }
+        rounding.0[lane] = point.rounding;
     }
 }
