@@ -128,7 +128,7 @@ impl<'a> Interner<'a> {
         for flip in [flipped, !flipped].into_iter().take(if ambiguous { 2 } else { 1 }) {
             let candidate = oriented(flip);
             let place = self.plane_place(&candidate);
-            if let Some(surface) = self.find(&Surface::Plane(candidate), place, corners) {
+            if let Some(surface) = self.find(&Surface::Plane(candidate), place, Some(corners)) {
                 return SurfaceRef { surface, flipped: flip };
             }
         }
@@ -196,6 +196,8 @@ impl<'a> Interner<'a> {
 
     /// A surface whose inside needs no choosing.
     fn curved(&mut self, surface: Surface, place: Place, samples: &[Vec3]) -> SurfaceRef {
+        // Where all samples of a face are as good as one point, they tell nothing: only the very same surface is another's.
+        let samples = (thickness(&surface) > FEWEST_TOLERANCES * self.tolerance).then_some(samples);
         let surface = self.find(&surface, place, samples).unwrap_or_else(|| self.insert(surface, place));
         SurfaceRef { surface, flipped: false }
     }
@@ -208,14 +210,14 @@ impl<'a> Interner<'a> {
 
     /// A surface within tolerance of all the samples, if there is one near that place: the oldest. Or the very same one:
     /// what was squeezed a lot may itself be off its samples.
-    fn find(&mut self, wanted: &Surface, place: Place, samples: &[Vec3]) -> Option<u32> {
+    fn find(&mut self, wanted: &Surface, place: Place, samples: Option<&[Vec3]>) -> Option<u32> {
         let matching = |surface: u32| {
             let surface = &self.surfaces[surface as usize];
             if surface.same_numbers(wanted) {
                 return Some(0.0);
             }
             let mut farthest = 0.0_f64;
-            for &p in samples {
+            for &p in samples? {
                 farthest = farthest.max(surface.distance(p));
                 if farthest > self.tolerance {
                     return None;
@@ -257,6 +259,20 @@ impl<'a> Interner<'a> {
             self.report.snapped_surfaces += 1;
         }
         self.report.largest_move = self.report.largest_move.max(moved);
+    }
+}
+
+/// What a curved surface surrounds is thicker than so many tolerances, if its samples are to tell it from others.
+const FEWEST_TOLERANCES: f64 = 4.0;
+
+/// How thick what a curved surface surrounds is at least where it is thinnest, roughly: half of it, or of its tube.
+fn thickness(surface: &Surface) -> f64 {
+    let steepest = |rows: &[Vec3]| rows.iter().map(|row| row.length()).fold(0.0, f64::max);
+    match surface {
+        Surface::Quadric(Quadric { kind: QuadricKind::Cylinder, to_local }) => 1.0 / steepest(&to_local.rows[..2]),
+        Surface::Quadric(Quadric { to_local, .. }) => 1.0 / steepest(&to_local.rows),
+        Surface::Torus(torus) => torus.minor / steepest(&torus.to_local.rows),
+        Surface::Plane(_) | Surface::Mesh(_) | Surface::Placed(_) => f64::INFINITY,
     }
 }
 
@@ -330,6 +346,18 @@ mod tests {
         let _ = intern(&[Face::Unbounded { plane }], &extent, 0.0, &mut surfaces);
         let [Surface::Plane(stored)] = surfaces[..] else { unreachable!("one plane") };
         assert_eq!(stored, Plane { normal: Vec3::Z, offset: -0.1 });
+    }
+
+    #[test]
+    fn cones_smaller_than_rounding_are_not_taken_for_others() {
+        // Two cones with one apex that stand across each other, both thinner than the tolerance.
+        let cone = |turn: f64| {
+            let map = Affine::scale(Vec3::splat(1e-16)) * Affine::rotation_deg(Vec3::new(turn, 0.0, 0.0));
+            Face::Quadric { kind: QuadricKind::Cone, map, to_local: map.inverse().unwrap(), heights: (1.0, 0.5) }
+        };
+        let (refs, _) = interned(&[cone(0.0), cone(90.0), cone(0.0)], 0.0);
+        assert_ne!(refs[0], refs[1]);
+        assert_eq!(refs[0], refs[2]);
     }
 
     #[test]
