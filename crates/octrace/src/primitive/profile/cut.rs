@@ -95,7 +95,13 @@ impl Writer<'_> {
             offer(Cut::Corner(chain.first), self.pieces[chain.first].to);
         }
         let Some((mut cut, mut top)) = top else { return (Cut::Corner(chain.first), chain.to) };
-        let mut i = chain.first;
+        // Not from left to right alone: on a spiral, corners would rise all the way.
+        if let Some(i) = self.blocks.promising(self.pieces, chain.first..chain.last, up)
+            && top.rise(self.pieces[i].to)
+        {
+            cut = Cut::Corner(i);
+        }
+        let mut i = self.blocks.next_up(chain.first, &top);
         while i < chain.last {
             if top.rise(self.pieces[i].to) {
                 cut = Cut::Corner(i);
