@@ -7,8 +7,8 @@ use super::prototype::{Numbers, Prototype};
 use super::{Catalog, CompileReport, Constant, Literal, Program, Word};
 use crate::geom::{Affine, Bounds};
 use crate::model::Solid;
-use crate::primitive::{Mesh, MovedFace, SurfaceRef};
-use crate::surface::{Placed, Surface};
+use crate::primitive::{Mesh, MeshPlane, MovedFace, SurfaceRef};
+use crate::surface::{Placed, Plane, Surface};
 use std::sync::Arc;
 
 /// Everything about some bodies that does not depend on where one looks.
@@ -96,8 +96,13 @@ impl PendingMesh {
         let mut faces = refs[self.first_face..].iter().copied();
         let mut next = |_: &MovedFace| faces.next().expect("the same faces have an area as before");
         let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
+        let mut mesh = mesh.expect("lowered only where a face has an area");
+        mesh.keep_planes(|surface| match &surfaces[surface as usize] {
+            &Surface::Plane(Plane { normal, offset }) => MeshPlane { normal, offset },
+            _ => unreachable!("planes have planes for surfaces"),
+        });
         let surface = surfaces.len() as u32;
-        surfaces.push(Surface::Mesh(Arc::new(mesh.expect("lowered only where a face has an area"))));
+        surfaces.push(Surface::Mesh(Arc::new(mesh)));
         SurfaceRef { surface, flipped: false }
     }
 }

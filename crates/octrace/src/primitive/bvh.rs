@@ -1,56 +1,102 @@
 //! A tree of boxes over numbered items, to find those that a query may concern.
+//!
+//! Its nodes are small, so that much of it stays near: the boxes are single precision, in coordinates in which all of the tree
+//! is a cube of edge 2 about the origin. They are a little larger than what is in them, by more than rounding comes to.
 
-use crate::geom::Bounds;
+mod build;
+
+pub(super) use build::GROWTH_BY_COORDINATES;
+
+use crate::geom::{Bounds, Vec3};
 use std::ops::ControlFlow;
 
-/// Up to so many items share a leaf.
-const LEAF_ITEMS: usize = 4;
-
-/// A binary tree of boxes in a flat array. Depends on the items' boxes and order only.
+/// A binary tree of boxes in a flat array, over items that are numbered in the order of its leaves.
 #[derive(Clone, Debug)]
-pub(crate) struct Bvh {
+pub(crate) struct BoxTree {
     nodes: Vec<Node>,
-    /// The items, those of a leaf in a row.
-    order: Vec<u32>,
+    frame: Frame,
+    bounds: Bounds,
 }
 
+/// A box, and what is in it.
 #[derive(Clone, Copy, Debug)]
-struct Node {
-    bounds: Bounds,
-    /// Number of items of a leaf; zero for a branch.
-    count: u32,
-    /// A leaf's first place in `order`; a branch's second child. Its first child is the next node.
+#[repr(C, align(32))]
+pub(crate) struct Node {
+    /// The corner with the smallest coordinates, in the tree's frame.
+    pub low: [f32; 3],
+    /// Number of items of a leaf, zero for a branch; above that, in a branch, the axis along which its children lie.
+    tag: u32,
+    /// The corner with the largest coordinates.
+    pub high: [f32; 3],
+    /// A leaf's first item; how much farther on a branch's second child is. Its first child is the next node.
     link: u32,
 }
 
-impl Bvh {
-    /// The tree over items with these boxes, numbered as they come.
-    pub fn build(boxes: &[Bounds]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len() as u32).collect() };
-        // What is still to be built: a stretch of `order`, and the branch whose second child it is.
-        let mut pending = vec![(0..boxes.len(), None::<usize>)];
-        while let Some((stretch, parent)) = pending.pop() {
-            let number = tree.nodes.len();
-            if let Some(parent) = parent {
-                tree.nodes[parent].link = number as u32;
-            }
-            let items = &mut tree.order[stretch.clone()];
-            let bounds = items.iter().fold(Bounds::EMPTY, |b, &i| b.union(boxes[i as usize]));
-            if items.len() <= LEAF_ITEMS {
-                tree.nodes.push(Node { bounds, count: items.len() as u32, link: stretch.start as u32 });
-                continue;
-            }
-            let middle = stretch.start + split(items, boxes);
-            tree.nodes.push(Node { bounds, count: 0, link: 0 });
-            pending.push((middle..stretch.end, Some(number)));
-            pending.push((stretch.start..middle, None));
-        }
-        tree
+/// What is below a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Below {
+    /// The second child is so much farther on than the branch itself, the first is the next node. Along that axis the first
+    /// one's items are lower.
+    Branch { second: u32, axis: usize },
+    /// So many items from the first on.
+    Leaf { first: u32, count: u32 },
+}
+
+/// Where the boxes of a tree have their origin, and how long their unit is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    pub center: Vec3,
+    pub scale: f64,
+}
+
+impl Node {
+    const AXIS: u32 = 30;
+
+    fn leaf(low: [f32; 3], high: [f32; 3], first: u32, count: u32) -> Self {
+        Self { low, tag: count, high, link: first }
     }
+
+    fn branch(low: [f32; 3], high: [f32; 3], axis: usize) -> Self {
+        Self { low, tag: (axis as u32) << Self::AXIS, high, link: 0 }
+    }
+
+    /// What is below it.
+    #[inline(always)]
+    pub fn below(&self) -> Below {
+        let count = self.tag & ((1 << Self::AXIS) - 1);
+        match count {
+            0 => Below::Branch { second: self.link, axis: (self.tag >> Self::AXIS) as usize },
+            _ => Below::Leaf { first: self.link, count },
+        }
+    }
+}
+
+impl Frame {
+    /// A box of the tree in the world's coordinates.
+    #[inline]
+    fn bounds_of(&self, node: &Node) -> Bounds {
+        let point = |p: [f32; 3]| self.center + Vec3::from(p.map(f64::from)) * self.scale;
+        Bounds::new(point(node.low), point(node.high))
+    }
+}
+
+impl BoxTree {
+    /// No way down is longer.
+    pub const MOST_LEVELS: usize = 64;
 
     /// The box around all items.
     pub fn bounds(&self) -> Bounds {
-        self.nodes[0].bounds
+        self.bounds
+    }
+
+    /// The root first; none where there are no items.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// Where the nodes' boxes are.
+    pub fn frame(&self) -> Frame {
+        self.frame
     }
 
     /// Calls `item` for every item in a leaf all of whose boxes, from the root down, `enter` accepts; stops when `item`
@@ -60,47 +106,65 @@ impl Bvh {
         mut enter: impl FnMut(&Bounds) -> bool,
         mut item: impl FnMut(u32) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        // Each level halves the number of items, so 2^32 items make 32 levels.
-        let mut waiting = [0_u32; 40];
-        let mut depth = 0;
-        let mut number = 0;
-        loop {
-            let node = &self.nodes[number];
-            let entered = enter(&node.bounds);
-            if entered && node.count == 0 && !self.order.is_empty() {
-                waiting[depth] = node.link;
-                depth += 1;
-                number += 1;
-                continue;
-            }
-            if entered {
-                let first = node.link as usize;
-                for &i in &self.order[first..first + node.count as usize] {
-                    item(i)?;
+        let mut waiting = [0_u32; Self::MOST_LEVELS];
+        let mut count = usize::from(!self.nodes.is_empty());
+        while count > 0 {
+            count -= 1;
+            let mut number = waiting[count];
+            while let Some(node) = self.nodes.get(number as usize) {
+                if !enter(&self.frame.bounds_of(node)) {
+                    break;
+                }
+                match node.below() {
+                    Below::Branch { second, .. } => {
+                        waiting[count] = number + second;
+                        count += 1;
+                        number += 1;
+                    }
+                    Below::Leaf { first, count } => {
+                        (first..first + count).try_for_each(&mut item)?;
+                        break;
+                    }
                 }
             }
-            if depth == 0 {
-                return ControlFlow::Continue(());
-            }
-            depth -= 1;
-            number = waiting[depth] as usize;
         }
+        ControlFlow::Continue(())
     }
 }
 
-/// Orders items along the axis on which their centres spread most, and returns the place of the middle one.
-fn split(items: &mut [u32], boxes: &[Bounds]) -> usize {
-    let center = |i: u32| boxes[i as usize].center();
-    let axis = Bounds::around(items.iter().map(|&i| center(i))).size().largest_axis();
-    let middle = items.len() / 2;
-    items.select_nth_unstable_by(middle, |&a, &b| center(a)[axis].total_cmp(&center(b)[axis]).then(a.cmp(&b)));
-    middle
+/// A tree over items as they are numbered by whoever has them.
+#[derive(Clone, Debug)]
+pub(crate) struct Bvh {
+    tree: BoxTree,
+    /// The items, those of a leaf in a row.
+    order: Vec<u32>,
+}
+
+impl Bvh {
+    /// The tree over items with these boxes, numbered as they come.
+    pub fn build(boxes: &[Bounds]) -> Self {
+        let (tree, order) = BoxTree::build(boxes.len(), 0.0, |item| boxes[item]);
+        Self { tree, order }
+    }
+
+    /// The box around all items.
+    pub fn bounds(&self) -> Bounds {
+        self.tree.bounds()
+    }
+
+    /// As [`BoxTree::visit`].
+    pub fn visit<B>(
+        &self,
+        enter: impl FnMut(&Bounds) -> bool,
+        mut item: impl FnMut(u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.tree.visit(enter, |place| item(self.order[place as usize]))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::Vec3;
 
     /// Items whose boxes hold `x`, by the tree.
     fn found(boxes: &[Bounds], x: f64) -> Vec<u32> {
@@ -116,20 +180,25 @@ mod tests {
         found
     }
 
+    fn row(count: u32, scale: f64, shift: f64) -> Vec<Bounds> {
+        let boxes = (0..count).map(|i| {
+            let x = f64::from(i * 37 % 50);
+            Bounds::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.5, 1.0, 1.0))
+        });
+        boxes.map(|b| Bounds::new(b.min * scale + Vec3::X * shift, b.max * scale + Vec3::X * shift)).collect()
+    }
+
     #[test]
     fn finds_what_a_scan_finds() {
-        for count in [0, 1, 4, 5, 9, 100, 1000] {
-            let boxes: Vec<Bounds> = (0..count)
-                .map(|i| {
-                    let x = f64::from(i * 37 % 50);
-                    Bounds::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.5, 1.0, 1.0))
-                })
-                .collect();
-            for x in [-1.0, 0.0, 1.0, 7.25, 49.0, 51.5, 60.0] {
-                let scan: Vec<u32> = (0..boxes.len() as u32)
-                    .filter(|&i| boxes[i as usize].min.x <= x && x <= boxes[i as usize].max.x)
-                    .collect();
-                assert_eq!(found(&boxes, x), scan, "{count} boxes, x = {x}");
+        for (scale, shift) in [(1.0, 0.0), (1e-200, 0.0), (1e200, 0.0), (1.0, 1e9), (1e-3, 1e12)] {
+            for count in [0, 1, 4, 5, 9, 100, 1000] {
+                let boxes = row(count, scale, shift);
+                for x in [-1.0, 0.0, 1.0, 7.25, 49.0, 51.5, 60.0].map(|x| x * scale + shift) {
+                    let scan: Vec<u32> = (0..boxes.len() as u32)
+                        .filter(|&i| boxes[i as usize].min.x <= x && x <= boxes[i as usize].max.x)
+                        .collect();
+                    assert_eq!(found(&boxes, x), scan, "{count} boxes, x = {x}");
+                }
             }
         }
     }
@@ -138,5 +207,16 @@ mod tests {
     fn equal_boxes_do_not_make_it_deep() {
         let boxes = vec![Bounds::new(Vec3::ZERO, Vec3::splat(1.0)); 10_000];
         assert_eq!(found(&boxes, 0.5).len(), 10_000);
+    }
+
+    #[test]
+    fn boxes_ever_smaller_do_not_make_it_deep() {
+        let boxes: Vec<Bounds> = (0..900)
+            .map(|i| {
+                let x = libm::ldexp(1.0, -i);
+                Bounds::new(Vec3::X * x, Vec3::X * x)
+            })
+            .collect();
+        assert_eq!(found(&boxes, 1.0), [0]);
     }
 }

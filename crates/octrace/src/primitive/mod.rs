@@ -5,8 +5,9 @@ mod mesh;
 mod polyhedron;
 mod profile;
 
-pub(crate) use bvh::Bvh;
+pub(crate) use bvh::{Below, BoxTree, Bvh, Node};
 pub use mesh::{Crossing, Mesh, MovedFace, SurfaceRef};
+pub(crate) use mesh::{Facet, MeshPlane, MeshTriangle, TINY, UNCERTAIN};
 pub use polyhedron::{FacePlane, Polyhedron, PolyhedronError, Triangle};
 pub use profile::{Contour, Curve, Edge, Profile, ProfileError};
 pub(crate) use profile::{Join, Outline, Step};

@@ -97,7 +97,9 @@ impl Surface {
             Self::Quadric(quadric) => quadric.crossings(ray),
             Self::Torus(torus) => torus.crossings(ray),
             Self::Mesh(mesh) => {
-                params.extend(mesh_toggles(mesh, all, ray).iter().map(|toggle| toggle.t));
+                let mut toggles = Vec::new();
+                mesh_toggles(mesh, all, ray, &mut toggles);
+                params.extend(toggles.iter().map(|toggle| toggle.t));
                 return false;
             }
             Self::Placed(_) => return false,
@@ -179,12 +181,11 @@ fn plane_t(all: &[Surface], surface: u32, ray: &Ray) -> f64 {
     }
 }
 
-fn mesh_toggles(mesh: &Mesh, all: &[Surface], ray: &Ray) -> Vec<Crossing> {
-    let mut toggles = Vec::new();
-    mesh.toggles(ray, |surface| plane_t(all, surface, ray), &mut toggles);
-    for toggle in &mut toggles {
+/// Where the line goes into a mesh and out of it: what there is to know of it, in `toggles`.
+pub(crate) fn mesh_toggles(mesh: &Mesh, all: &[Surface], ray: &Ray, toggles: &mut Vec<Crossing>) {
+    mesh.toggles(ray, |surface| plane_t(all, surface, ray), toggles);
+    for toggle in toggles {
         // Turns -0 into 0: equal parameters shall have equal bits.
         toggle.t += 0.0;
     }
-    toggles
 }

@@ -42,13 +42,13 @@ impl Body {
     ) -> Result<Self, Cancelled> {
         let octree = match options.accel {
             Accel::None => None,
-            Accel::Octree => exec.install(|| {
+            Accel::Octree => {
                 let octree = build(catalog, &program, &options.octree, options.traversal.max_depth(), exec)?;
-                Ok(octree.map(|octree| {
+                octree.map(|octree| {
                     let traversal = Traversal::new(options.traversal, &octree);
                     (octree, traversal)
-                }))
-            })?,
+                })
+            }
         };
         let nesting = program.nesting();
         Ok(Self { program, octree, accel: options.accel, nesting, prototypes: Arc::clone(prototypes) })

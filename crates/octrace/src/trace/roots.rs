@@ -7,7 +7,9 @@
 use super::canonical::{copy_spans, ends};
 use crate::compile::{Catalog, Word, node_end};
 use crate::geom::{Hit, Ray};
-use crate::surface::{Sides, Surface};
+use crate::primitive::Crossing;
+use crate::surface::{Sides, Surface, mesh_toggles};
+use std::ops::Range;
 
 /// The crossings of one ray with the literals of one program; scratch memory of a worker.
 #[derive(Debug, Default)]
@@ -16,7 +18,9 @@ pub(crate) struct Roots {
     rows: Vec<Row>,
     params: Vec<f64>,
     /// Meshes and whole solids that this ray has met already, and where it crosses them: they reach through many cells.
-    wholes: Vec<(u32, Vec<f64>)>,
+    wholes: Vec<(u32, Range<usize>)>,
+    whole_params: Vec<f64>,
+    toggles: Vec<Crossing>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +43,7 @@ impl Roots {
     /// Forgets what is known of the ray before.
     pub fn begin_ray(&mut self) {
         self.wholes.clear();
+        self.whole_params.clear();
     }
 
     /// Crosses the ray, the same as since [`begin_ray`](Self::begin_ray), with every literal of the program.
@@ -62,17 +67,20 @@ impl Roots {
             return literal.surface.crossings(&catalog.surfaces, ray, &mut self.params);
         }
         let known = self.wholes.iter().position(|&(known, _)| known == surface).unwrap_or_else(|| {
-            let mut params = Vec::new();
+            let params = &mut self.whole_params;
+            let start = params.len();
             match literal.surface {
-                Surface::Placed(placed) => {
-                    params.extend(ends(copy_spans(catalog, placed, ray)).map(|hit| hit.t));
+                Surface::Placed(placed) => params.extend(ends(copy_spans(catalog, placed, ray)).map(|hit| hit.t)),
+                Surface::Mesh(mesh) => {
+                    mesh_toggles(mesh, &catalog.surfaces, ray, &mut self.toggles);
+                    params.extend(self.toggles.iter().map(|toggle| toggle.t));
                 }
-                _ => _ = literal.surface.crossings(&catalog.surfaces, ray, &mut params),
+                _ => {}
             }
-            self.wholes.push((surface, params));
+            self.wholes.push((surface, start..params.len()));
             self.wholes.len() - 1
         });
-        self.params.extend_from_slice(&self.wholes[known].1);
+        self.params.extend_from_slice(&self.whole_params[self.wholes[known].1.clone()]);
         // What is bounded is met from outside.
         false
     }

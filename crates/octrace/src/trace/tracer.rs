@@ -67,6 +67,11 @@ impl Tracer {
     /// # Errors
     /// If `exec` is cancelled.
     pub fn build_bodies(bodies: &[Solid], options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
+        exec.install(|| Self::build_here(bodies, options, exec))
+    }
+
+    /// As [`build_bodies`](Self::build_bodies), with the threads that are there.
+    fn build_here(bodies: &[Solid], options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
         let compiled = compile(bodies, options.snap, options.copies);
         let bounds = compiled.bodies.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounds));
         let catalog = compiled.catalog;

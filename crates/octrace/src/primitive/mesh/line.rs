@@ -74,10 +74,13 @@ impl Line {
 }
 
 /// Products of numbers from here on have all their digits, and so have the errors of these products.
-const TINY: f64 = 1e-140;
+pub(crate) const TINY: f64 = 1e-140;
 
 /// Rounding errors in this module are below eight units in the last place of the largest number.
-const ROOM: f64 = 16.0 * f64::EPSILON;
+pub(super) const ROOM: f64 = 16.0 * f64::EPSILON;
+
+/// Each product is off by half a unit in its last place, and so is the difference of two; twice that is certain.
+pub(crate) const UNCERTAIN: f64 = 4.0 * f64::EPSILON;
 
 /// Whether the origin, nudged by `(e, e*e)`, lies to the left of the way from `a` to `b`. `None` where they are equal.
 ///
@@ -85,8 +88,7 @@ const ROOM: f64 = 16.0 * f64::EPSILON;
 fn is_left(a: [f64; 2], b: [f64; 2]) -> Option<bool> {
     let [p, q] = [a[0] * b[1], a[1] * b[0]];
     let mut side = p - q;
-    // Each product is off by half a unit in its last place, and so is the difference; twice that is certain.
-    if side.abs() <= 4.0 * f64::EPSILON * (p.abs() + q.abs()) {
+    if side.abs() <= UNCERTAIN * (p.abs() + q.abs()) {
         side = orient2d(Coord { x: a[0], y: a[1] }, Coord { x: b[0], y: b[1] }, Coord { x: 0.0, y: 0.0 });
     }
     // With the nudge, the side is a.x*b.y - a.y*b.x + e*(a.y - b.y) + e*e*(b.x - a.x).

@@ -8,30 +8,66 @@
 
 mod line;
 mod overlap;
+mod place;
 
-use super::bvh::Bvh;
+use super::bvh::{BoxTree, GROWTH_BY_COORDINATES};
 use super::polyhedron::{FacePlane, Polyhedron};
 use crate::geom::{Affine, Bounds, Ray, Vec3};
 use line::Line;
+pub(crate) use line::{TINY, UNCERTAIN};
+use place::{adopt, arranged};
 use std::ops::ControlFlow;
 
 /// A polyhedron in world space, for which rays can be traced: watertight, with parameters from planes that it may share
 /// with other solids.
 #[derive(Clone, Debug)]
 pub struct Mesh {
+    /// Corners, in the order in which the triangles come to them.
     points: Vec<Vec3>,
+    /// In the order of the tree's leaves.
     triangles: Vec<MeshTriangle>,
-    tree: Bvh,
+    tree: BoxTree,
+    /// The planes of the triangles' surfaces, in the same order.
+    planes: Vec<MeshPlane>,
+    /// The surfaces of the triangles by their numbers.
+    facets: Vec<Facet>,
     slack: f64,
     /// The largest coordinate, by magnitude.
     farthest: f64,
 }
 
+/// A triangle among others that are near it.
 #[derive(Clone, Copy, Debug)]
-struct MeshTriangle {
+pub(crate) struct MeshTriangle {
     /// Counter-clockwise from outside.
-    corners: [u32; 3],
-    surface: SurfaceRef,
+    pub corners: [u32; 3],
+    /// Its number in the order of the polyhedron.
+    pub number: u32,
+}
+
+/// The plane of a surface that a triangle lies in: where it is at hand when a ray is there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeshPlane {
+    pub normal: Vec3,
+    pub offset: f64,
+}
+
+/// A [`SurfaceRef`] in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Facet(pub u32);
+
+impl Facet {
+    const FLIPPED: u32 = 1 << 31;
+
+    fn new(surface: SurfaceRef) -> Self {
+        Self(surface.surface | if surface.flipped { Self::FLIPPED } else { 0 })
+    }
+
+    /// What it refers to.
+    #[inline(always)]
+    pub fn surface(self) -> SurfaceRef {
+        SurfaceRef { surface: self.0 & !Self::FLIPPED, flipped: self.0 & Self::FLIPPED != 0 }
+    }
 }
 
 /// Which of the caller's surfaces a face lies in.
@@ -93,15 +129,29 @@ impl Mesh {
             surfaces.push(plane.map(|plane| surface_of(&MovedFace { face, corners: &corners, plane })));
         }
         let surfaces = adopt(surfaces, polyhedron.faces())?;
-        let placed = polyhedron.triangles().iter().map(|t| {
-            let [a, b, c] = t.corners;
-            MeshTriangle { corners: if mirrored { [c, b, a] } else { [a, b, c] }, surface: surfaces[t.face as usize] }
+        let corners_of = |triangle: usize| {
+            let [a, b, c] = polyhedron.triangles()[triangle].corners;
+            if mirrored { [c, b, a] } else { [a, b, c] }
+        };
+        let facets = polyhedron.triangles().iter().map(|t| Facet::new(surfaces[t.face as usize])).collect();
+        let (tree, order) = BoxTree::build(polyhedron.triangles().len(), slack, |triangle| {
+            Bounds::around(corners_of(triangle).map(|i| points[i as usize]))
         });
-        let triangles: Vec<MeshTriangle> = placed.collect();
-        let boxes: Vec<Bounds> =
-            triangles.iter().map(|t| Bounds::around(t.corners.map(|i| points[i as usize]))).collect();
+        let (triangles, points) = arranged(&order, &points, corners_of);
         let farthest = points.iter().map(|p| p.max_abs()).fold(0.0, f64::max);
-        Some(Self { tree: Bvh::build(&boxes), points, triangles, slack, farthest })
+        Some(Self { points, triangles, tree, planes: Vec::new(), facets, slack, farthest })
+    }
+
+    /// Takes the planes of the surfaces, by their numbers, to be at hand where [`plane`](Self::plane) asks for them.
+    pub(crate) fn keep_planes(&mut self, plane_of: impl Fn(u32) -> MeshPlane) {
+        let planes = self.triangles.iter().map(|triangle| plane_of(self.facet(triangle.number).surface().surface));
+        self.planes = planes.collect();
+    }
+
+    /// The plane of the surface that the triangle at a place of the tree lies in.
+    #[inline(always)]
+    pub(crate) fn plane(&self, place: usize) -> MeshPlane {
+        self.planes[place]
     }
 
     /// The smallest axis-aligned box around the mesh.
@@ -119,7 +169,45 @@ impl Mesh {
     /// # Panics
     /// If there is no such triangle.
     pub fn surface(&self, triangle: u32) -> SurfaceRef {
-        self.triangles[triangle as usize].surface
+        self.facets[triangle as usize].surface()
+    }
+
+    /// The surface that a triangle lies in.
+    #[inline(always)]
+    pub(crate) fn facet(&self, triangle: u32) -> Facet {
+        self.facets[triangle as usize]
+    }
+
+    /// The tree over the triangles, its boxes grown by the slack.
+    pub(crate) fn tree(&self) -> &BoxTree {
+        &self.tree
+    }
+
+    /// The triangles in the order of the tree's leaves.
+    pub(crate) fn triangles(&self) -> &[MeshTriangle] {
+        &self.triangles
+    }
+
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub(crate) fn corners(&self, triangle: &MeshTriangle) -> [Vec3; 3] {
+        triangle.corners.map(|i| self.points[i as usize])
+    }
+
+    /// How far a surface may lie off the face that it stands for.
+    pub(crate) fn slack(&self) -> f64 {
+        self.slack
+    }
+
+    /// The largest coordinate of rays' origins for which the boxes of the tree are large enough to have no line through a
+    /// triangle pass them by.
+    pub(crate) fn reach(&self) -> f64 {
+        GROWTH_BY_COORDINATES / (2.0 * line::ROOM) * self.farthest
+    }
+
+    /// Whether the line passes through a triangle, and if so, whether it goes in.
+    pub(crate) fn crosses(&self, ray: &Ray, triangle: &MeshTriangle) -> Option<bool> {
+        Line::new(ray, self.farthest).crosses(self.corners(triangle))
     }
 
     /// Replaces `out` by all crossings of the whole line, `t` from -inf to inf, in ascending order; those at one `t`
@@ -132,8 +220,8 @@ impl Mesh {
         let line = Line::new(ray, self.farthest);
         let _ = self.tree.visit::<()>(
             |bounds| line.may_touch(bounds),
-            |triangle| {
-                out.extend(self.crossing(&line, ray, &surface_t, triangle));
+            |place| {
+                out.extend(self.crossing(&line, ray, &surface_t, place));
                 ControlFlow::Continue(())
             },
         );
@@ -180,9 +268,11 @@ impl Mesh {
         let mut first: Option<u32> = None;
         let _ = self.tree.visit::<()>(
             |bounds| !bounds.intersection(probe).is_empty() && line.may_touch(bounds),
-            |triangle| {
-                let crossing = self.crossing(&line, ray, &surface_t, triangle);
-                if crossing.is_some_and(|c| c.t == t && c.entering == entering) {
+            |place| {
+                if let Some(Crossing { triangle, .. }) = self
+                    .crossing(&line, ray, &surface_t, place)
+                    .filter(|crossing| crossing.t == t && crossing.entering == entering)
+                {
                     first = Some(first.map_or(triangle, |known| known.min(triangle)));
                 }
                 ControlFlow::Continue(())
@@ -191,15 +281,15 @@ impl Mesh {
         first
     }
 
-    /// Where the line passes through one triangle, if it does.
-    fn crossing(&self, line: &Line, ray: &Ray, surface_t: impl Fn(u32) -> f64, triangle: u32) -> Option<Crossing> {
-        let MeshTriangle { corners, surface } = self.triangles[triangle as usize];
-        let corners = corners.map(|i| self.points[i as usize]);
+    /// Where the line passes through the triangle at a place of the tree, if it does.
+    fn crossing(&self, line: &Line, ray: &Ray, surface_t: impl Fn(u32) -> f64, place: u32) -> Option<Crossing> {
+        let triangle = &self.triangles[place as usize];
+        let corners = self.corners(triangle);
         let entering = line.crosses(corners)?;
         let (low, high) = within(ray, corners, self.slack, reach(ray, &Bounds::around(corners), self.slack));
-        let t = surface_t(surface.surface);
+        let t = surface_t(self.surface(triangle.number).surface);
         let t = if t.is_finite() { t.max(low).min(high) } else { low + 0.5 * (high - low) };
-        Some(Crossing { t, entering, triangle })
+        Some(Crossing { t, entering, triangle: triangle.number })
     }
 
     /// Whether the point is inside. On the surface the answer is one or the other.
@@ -208,8 +298,8 @@ impl Mesh {
         let mut winding = 0_i32;
         let _ = self.tree.visit::<()>(
             |bounds| bounds.max.z >= point.z && line.may_touch(bounds),
-            |triangle| {
-                let corners = self.triangles[triangle as usize].corners.map(|i| self.points[i as usize]);
+            |place| {
+                let corners = self.corners(&self.triangles[place as usize]);
                 if let Some(entering) = line.crosses(corners) {
                     let ahead = line::is_behind(corners, point) != entering;
                     winding += i32::from(ahead) * if entering { -1 } else { 1 };
@@ -228,8 +318,8 @@ impl Mesh {
         let probe = Bounds::new(center - half_extents, center + half_extents);
         let outcome = self.tree.visit(
             |bounds| !bounds.intersection(probe).is_empty(),
-            |triangle| {
-                let corners = self.triangles[triangle as usize].corners.map(|i| self.points[i as usize]);
+            |place| {
+                let corners = self.corners(&self.triangles[place as usize]);
                 match overlap::triangle_reaches_box(corners, center, half_extents) {
                     true => ControlFlow::Break(()),
                     false => ControlFlow::Continue(()),
@@ -276,33 +366,6 @@ fn within(ray: &Ray, corners: [Vec3; 3], slack: f64, (mut low, mut high): (f64, 
         }
     }
     (low, high)
-}
-
-/// Gives faces without a surface of their own the surface of a neighbour, or else of the first face that has one.
-fn adopt(mut surfaces: Vec<Option<SurfaceRef>>, faces: &[Vec<u32>]) -> Option<Vec<SurfaceRef>> {
-    let fallback = surfaces.iter().flatten().next().copied()?;
-    if surfaces.iter().all(Option::is_some) {
-        return surfaces.into_iter().collect();
-    }
-    // The last face at each edge, by the edge's direction: the neighbour walks it the other way.
-    let edges = |face: &[u32]| (0..face.len()).map(|i| (face[i], face[(i + 1) % face.len()])).collect::<Vec<_>>();
-    let mut at_edge = std::collections::HashMap::new();
-    for (number, face) in faces.iter().enumerate() {
-        at_edge.extend(edges(face).into_iter().map(|edge| (edge, number)));
-    }
-    // Degenerate faces may border on each other, so what has been adopted is passed on.
-    let mut orphans: Vec<usize> = (0..faces.len()).filter(|&i| surfaces[i].is_none()).collect();
-    loop {
-        let before = orphans.len();
-        orphans.retain(|&orphan| {
-            let neighbours = edges(&faces[orphan]).into_iter().filter_map(|(a, b)| at_edge.get(&(b, a)));
-            surfaces[orphan] = neighbours.filter_map(|&n| surfaces[n]).next();
-            surfaces[orphan].is_none()
-        });
-        if orphans.is_empty() || orphans.len() == before {
-            return Some(surfaces.into_iter().map(|s| s.unwrap_or(fallback)).collect());
-        }
-    }
 }
 
 #[cfg(test)]

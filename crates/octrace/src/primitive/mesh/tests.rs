@@ -94,8 +94,9 @@ fn assert_closed(crossings: &[Crossing]) -> Result<(), TestCaseError> {
 /// What the tree finds is what looking at every triangle finds.
 fn assert_complete(mesh: &Mesh, ray: &Ray, crossings: &[Crossing]) -> Result<(), TestCaseError> {
     let line = Line::new(ray, mesh.farthest);
-    let crossed = |i: u32| line.crosses(mesh.triangles[i as usize].corners.map(|c| mesh.points[c as usize]));
-    let all: Vec<u32> = (0..mesh.triangle_count() as u32).filter(|&i| crossed(i).is_some()).collect();
+    let crossed = mesh.triangles.iter().filter(|triangle| line.crosses(mesh.corners(triangle)).is_some());
+    let mut all: Vec<u32> = crossed.map(|triangle| triangle.number).collect();
+    all.sort_unstable();
     let mut found: Vec<u32> = crossings.iter().map(|c| c.triangle).collect();
     found.sort_unstable();
     prop_assert_eq!(found, all);
@@ -204,7 +205,8 @@ proptest! {
         assert_closed(&out)?;
         let slack = mesh.slack + 1e-12 * (1.0 + ray.origin.max_abs());
         for crossing in out {
-            let corners = mesh.triangles[crossing.triangle as usize].corners.map(|i| mesh.points[i as usize]);
+            let triangle = mesh.triangles.iter().find(|triangle| triangle.number == crossing.triangle).unwrap();
+            let corners = mesh.corners(triangle);
             let (bounds, p) = (Bounds::around(corners), ray.at(crossing.t));
             for axis in 0..3 {
                 prop_assert!(bounds.min[axis] - slack <= p[axis] && p[axis] <= bounds.max[axis] + slack);

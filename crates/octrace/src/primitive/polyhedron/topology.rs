@@ -2,7 +2,7 @@
 
 use super::PolyhedronError;
 use crate::geom::Vec3;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Distinct points, and which input point each of them was first.
 pub(super) struct Points {
@@ -29,7 +29,8 @@ pub(super) fn clean(points: Vec<Vec3>, faces: Vec<Vec<u32>>) -> Result<(Points, 
         return Err(PolyhedronError::NotFinite { index });
     }
     // The first of all points with the same coordinates; adding zero makes -0.0 equal to 0.0 to the bit.
-    let mut known: HashMap<[u64; 3], u32> = HashMap::new();
+    let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    known.reserve(points.len() / 4);
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f64::to_bits);
     let first: Vec<u32> = (0_u32..).zip(&points).map(|(i, &p)| *known.entry(bits(p)).or_insert(i)).collect();
 
@@ -106,15 +107,33 @@ impl EdgeUse {
 struct Edges(Vec<EdgeUse>);
 
 impl Edges {
-    fn of(faces: &[Face]) -> Self {
-        let mut uses = Vec::with_capacity(faces.iter().map(|f| f.corners.len()).sum());
-        for (number, face) in faces.iter().enumerate() {
-            let next = face.corners.iter().cycle().skip(1);
-            for (&a, &b) in face.corners.iter().zip(next) {
-                uses.push(EdgeUse { low: a.min(b), high: a.max(b), face: number as u32, forward: a < b });
-            }
+    /// Those of faces with corners among so many points.
+    fn of(faces: &[Face], points: usize) -> Self {
+        let edges = || {
+            let faces = faces.iter().zip(0_u32..);
+            faces.flat_map(|(Face { corners, .. }, face)| {
+                let next = corners.iter().cycle().skip(1);
+                corners.iter().zip(next).map(move |(&a, &b)| EdgeUse {
+                    low: a.min(b),
+                    high: a.max(b),
+                    face,
+                    forward: a < b,
+                })
+            })
+        };
+        // Those with the same lower end come to their place first, and are few.
+        let mut places = vec![0_u32; points + 1];
+        edges().for_each(|edge| places[edge.low as usize + 1] += 1);
+        for point in 0..points {
+            places[point + 1] += places[point];
         }
-        uses.sort_unstable();
+        let mut uses = vec![EdgeUse { low: 0, high: 0, face: 0, forward: false }; places[points] as usize];
+        for edge in edges() {
+            let place = &mut places[edge.low as usize];
+            uses[*place as usize] = edge;
+            *place += 1;
+        }
+        uses.chunk_by_mut(|a, b| a.low == b.low).for_each(<[EdgeUse]>::sort_unstable);
         Self(uses)
     }
 
@@ -130,7 +149,7 @@ impl Edges {
 
 /// Makes sure that the surface is closed, and turns faces where that is needed for it.
 pub(super) fn orient(points: &Points, faces: &mut [Face]) -> Result<(), PolyhedronError> {
-    let edges = Edges::of(faces);
+    let edges = Edges::of(faces, points.coordinates.len());
     if edges.unbalanced().next().is_none() {
         return Ok(());
     }
@@ -140,7 +159,7 @@ pub(super) fn orient(points: &Points, faces: &mut [Face]) -> Result<(), Polyhedr
         return Err(PolyhedronError::Open { face, from, to, count: open.len() });
     }
     turn_to_agree(&edges, points, faces);
-    let edges = Edges::of(faces);
+    let edges = Edges::of(faces, points.coordinates.len());
     let torn: Vec<&[EdgeUse]> = edges.unbalanced().collect();
     if let Some(uses) = torn.first() {
         let (face, from, to) = describe(uses, points, faces);

@@ -3,6 +3,7 @@
 
 use super::TileHit;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored};
+use super::mesh::hit_of_facet;
 use super::packet::Packet;
 use crate::compile::{Catalog, Word};
 use crate::geom::{Hit, Ray, Vec3};
@@ -123,7 +124,8 @@ impl EightHits {
     fn take_facets(&mut self, catalog: &Catalog, rays: &EightRays, packet: &Packet, word: u32, lanes: u8) {
         for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
             let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
-            let hit = hit_of(catalog, word, &rays.ray(lane), t, entering);
+            let known = hit_of_facet(catalog, word, packet.facets[lane], t, entering);
+            let hit = known.unwrap_or_else(|| hit_of(catalog, word, &rays.ray(lane), t, entering));
             self.set(lane, Some((packet.bodies[lane] as usize, hit)));
         }
     }

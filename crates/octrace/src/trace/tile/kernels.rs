@@ -2,6 +2,7 @@
 //!
 //! Each kind of leaf has a kernel, which is compiled as a function of its own and is told which packets to look at.
 
+use super::crossing::Crossed;
 use super::lanes::{F64s, Isa, Kernel, LANES, Mask, Number, Stored};
 use super::packet::{Origins, Packet};
 use super::program::{CHUNK, Solving, crossed};
@@ -56,10 +57,23 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// A stretch with a program of one literal, which is plain.
     #[inline(always)]
     pub(super) fn single(&mut self, word: u32, number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
-        self.scratch.counters.surface_tests += u64::from(here.bits().count_ones());
-        let wanted = self.scenery.wanted;
         let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);
         let crossed = crossed(self.scenery.catalog, word, &rays);
+        self.single_crossed(word, crossed, number, here, Stretch { t_in, t_out });
+    }
+
+    /// A stretch with a program of one literal, which is crossed there.
+    #[inline(always)]
+    pub(super) fn single_crossed(
+        &mut self,
+        word: u32,
+        crossed: Crossed<I>,
+        number: usize,
+        here: Mask<I>,
+        Stretch { t_in, t_out }: Stretch<I>,
+    ) {
+        self.scratch.counters.surface_tests += u64::from(here.bits().count_ones());
+        let wanted = self.scenery.wanted;
         let starts_wanted = crossed.starts_inside ^ Mask::splat(!wanted);
         // Two crossings at one place cancel each other.
         let (a, b) = (crossed.a, crossed.b);
@@ -79,43 +93,62 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
     /// Stretches of some packets with a plain program.
     #[inline(always)]
     pub(super) fn program(&mut self, words: &[u32], chunk: &Chunk) {
-        let Scenery { catalog, wanted, offset, .. } = self.scenery;
+        let Scenery { catalog, offset, .. } = self.scenery;
         let numbers = &chunk.numbers[..chunk.count];
         let solving = Solving { packets: self.packets, numbers, eye: self.beam.eye, offset };
         self.solved.solve::<I, O>(catalog, words, &solving);
         for slot in 0..chunk.count {
             let here = Mask::from_bits(chunk.here[slot]);
             let (t_in, t_out) = (F64s::load(&chunk.t_in[slot]), F64s::load(&chunk.t_out[slot]));
-            self.scratch.counters.surface_tests += words.len() as u64 * u64::from(here.bits().count_ones());
-            let solved = self.solved.packet(words, slot);
-            let packet = &mut self.packets[chunk.numbers[slot] as usize];
-            // Infinite for rays that are done.
-            let mut t = here.select(t_in, F64s::infinity());
-            loop {
-                t = solved.bound::<I>(t, wanted);
-                let pending = t.le(t_out) & t.lt(F64s::infinity());
-                if !pending.any() {
-                    break;
-                }
-                let changes = solved.changes::<I>(t);
-                let arrived = pending & (changes.after ^ Mask::splat(!wanted));
-                let turned = changes.before ^ changes.after;
-                packet.meet::<I>(arrived & turned, t, changes.words, &self.scenery);
-                let leaked = arrived & !turned;
-                if leaked.any() {
-                    packet.leak(leaked, t_in);
-                }
-                if arrived.bits() == pending.bits() {
-                    break;
-                }
-                t = arrived.select(F64s::infinity(), t);
+            self.solved_program(words, (slot, chunk.numbers[slot] as usize), here, Stretch { t_in, t_out });
+        }
+    }
+
+    /// A packet's stretch with a program whose literals' crossings are known, in that slot.
+    #[inline(always)]
+    pub(super) fn solved_program(
+        &mut self,
+        words: &[u32],
+        (slot, number): (usize, usize),
+        here: Mask<I>,
+        Stretch { t_in, t_out }: Stretch<I>,
+    ) {
+        let wanted = self.scenery.wanted;
+        self.scratch.counters.surface_tests += words.len() as u64 * u64::from(here.bits().count_ones());
+        let solved = self.solved.packet(words, slot);
+        let packet = &mut self.packets[number];
+        // Infinite for rays that are done.
+        let mut t = here.select(t_in, F64s::infinity());
+        loop {
+            t = solved.bound::<I>(t, wanted);
+            let pending = t.le(t_out) & t.lt(F64s::infinity());
+            if !pending.any() {
+                break;
             }
+            let changes = solved.changes::<I>(t);
+            let arrived = pending & (changes.after ^ Mask::splat(!wanted));
+            let turned = changes.before ^ changes.after;
+            packet.meet::<I>(arrived & turned, t, changes.words, &self.scenery);
+            let leaked = arrived & !turned;
+            if leaked.any() {
+                packet.leak(leaked, t_in);
+            }
+            if arrived.bits() == pending.bits() {
+                break;
+            }
+            t = arrived.select(F64s::infinity(), t);
         }
     }
 
     /// A stretch with a program that needs scalar code.
     #[inline(always)]
-    fn one_by_one(&mut self, words: &[u32], number: usize, here: Mask<I>, Stretch { t_in, t_out }: Stretch<I>) {
+    pub(super) fn one_by_one(
+        &mut self,
+        words: &[u32],
+        number: usize,
+        here: Mask<I>,
+        Stretch { t_in, t_out }: Stretch<I>,
+    ) {
         let (t_in, t_out) = (t_in.stored(), t_out.stored());
         let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);
         let origin = rays.origin.map(|v| v.lanes().stored());

@@ -3,7 +3,8 @@
 
 use super::crossing::{Rays, crossed_by, point};
 use super::dispatch::Task;
-use super::lanes::{F64s, Isa, LANES, Mask, Number, Vector};
+use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
+use super::mesh::face_of;
 use super::packet::{Common, Origins, Own, Packet};
 use super::{ACROSS, PACKET_PX, PACKETS, RayTile, TILE_PX, Tiles, lane_of};
 use crate::compile::{Catalog, Use, Word};
@@ -31,6 +32,7 @@ impl Brightness {
 /// The surface of every pixel of a tile: what one would have to be told in order to have nothing to search for.
 #[derive(Clone, Copy, Debug)]
 pub struct Told {
+    facets: [[u32; LANES]; PACKETS],
     words: [[u32; LANES]; PACKETS],
     met: [u8; PACKETS],
     entering: [u8; PACKETS],
@@ -60,9 +62,8 @@ impl Tiles<'_> {
             let (x, y) = (at % TILE_PX, at / TILE_PX);
             let (packet, lane) = lane_of(x, y);
             let given_up = tile.packets[packet].given_up >> lane & 1 != 0;
-            let hit = self.hit(tile, (x, y)).map(|(_, hit)| hit);
-            let surface = hit.map(|hit| self.tracer.catalog.surface(hit.surface).0);
-            if given_up || matches!(surface, Some(Surface::Torus(_) | Surface::Mesh(_))) {
+            if given_up || tile.packets[packet].met >> lane & 1 != 0 && self.is_unusual(&tile.packets[packet], lane) {
+                let hit = self.hit(tile, (x, y)).map(|(_, hit)| hit);
                 let ray = tile.ray(packet, lane);
                 *pixel = hit.map_or(Brightness::BACKGROUND, |hit| {
                     let normal = self.tracer.surface_point(&ray, &hit).normal;
@@ -72,9 +73,20 @@ impl Tiles<'_> {
         }
     }
 
+    /// Whether lanes cannot shade what a ray met.
+    fn is_unusual(&self, packet: &Packet, lane: usize) -> bool {
+        let Word::Literal { index, .. } = Word::decode(packet.words[lane]) else { return true };
+        match self.tracer.catalog.literal(index).surface {
+            Surface::Plane(_) | Surface::Quadric(_) | Surface::Placed(_) => false,
+            Surface::Mesh(_) => packet.facets[lane] == Packet::UNKNOWN,
+            Surface::Torus(_) => true,
+        }
+    }
+
     /// The surfaces that the pixels of the tile just traced see.
     pub fn told(tile: &RayTile) -> Told {
         Told {
+            facets: std::array::from_fn(|i| tile.packets[i].facets),
             words: std::array::from_fn(|i| tile.packets[i].words),
             met: std::array::from_fn(|i| tile.packets[i].met & !tile.packets[i].given_up),
             entering: std::array::from_fn(|i| tile.packets[i].entering),
@@ -114,7 +126,8 @@ impl Task for Shade<'_, '_> {
     fn run<I: Isa>(self) {
         let Self { tiles, light, tile, pixels } = self;
         for (number, packet) in tile.packets.iter().enumerate() {
-            let seen = Seen { words: &packet.words, met: packet.met, entering: packet.entering };
+            let Packet { words, facets, met, entering, .. } = packet;
+            let seen = Seen { words, facets, met: *met, entering: *entering };
             let value = match tiles.camera.orthographic {
                 true => shaded::<I, Own>(&tiles.tracer.catalog, packet, tiles.camera.eye, seen, light, true),
                 false => shaded::<I, Common>(&tiles.tracer.catalog, packet, tiles.camera.eye, seen, light, true),
@@ -143,7 +156,8 @@ impl Task for ShadeTold<'_, '_> {
         let packet = &mut tile.packets[0];
         for number in 0..PACKETS {
             packet.set_out::<I>(camera, number, corner, (0.5, 0.5), u8::MAX);
-            let seen = Seen { words: &told.words[number], met: told.met[number], entering: told.entering[number] };
+            let (met, entering) = (told.met[number], told.entering[number]);
+            let seen = Seen { words: &told.words[number], facets: &told.facets[number], met, entering };
             let value = match camera.orthographic {
                 true => shaded::<I, Own>(&tiles.tracer.catalog, packet, camera.eye, seen, light, false),
                 false => shaded::<I, Common>(&tiles.tracer.catalog, packet, camera.eye, seen, light, false),
@@ -157,6 +171,7 @@ impl Task for ShadeTold<'_, '_> {
 #[derive(Clone, Copy)]
 struct Seen<'a> {
     words: &'a [u32; LANES],
+    facets: &'a [u32; LANES],
     met: u8,
     entering: u8,
 }
@@ -180,6 +195,14 @@ fn shaded<I: Isa, O: Origins<I>>(
         left &= !same;
         let Word::Literal { index, negated } = Word::decode(word) else { continue };
         let Use { surface, offset, .. } = catalog.literal(index);
+        if let Surface::Mesh(_) = surface {
+            let normal = normals(catalog, seen.facets, same);
+            let normal = Vector::<F64s<I>>::load(&normal);
+            let d = packet.rays::<I, O>(eye, offset).direction;
+            value =
+                Mask::from_bits(same).select(facing_lanes(normal.dot(Vector::from_one(light)), normal.dot(d)), value);
+            continue;
+        }
         let rays: Rays<I, O::Number> = packet.rays::<I, O>(eye, offset);
         let t = match known {
             true => F64s::load(&packet.t),
@@ -217,8 +240,29 @@ fn cosine<I: Isa, N: Number<I>>(surface: &Surface, rays: &Rays<I, N>, t: F64s<I>
         // Scalar code shades those lanes.
         Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (F64s::zero(), F64s::zero()),
     };
+    facing_lanes(to_light, along_ray)
+}
+
+/// As [`facing`].
+#[inline(always)]
+fn facing_lanes<I: Isa>(to_light: F64s<I>, along_ray: F64s<I>) -> F64s<I> {
     let cosine = along_ray.gt(F64s::zero()).select(-to_light, to_light);
     cosine.max(F64s::zero())
+}
+
+/// The normals of a mesh's faces that some rays see; zero where the face is not known.
+#[inline(always)]
+fn normals(catalog: &Catalog, facets: &[u32; LANES], lanes: u8) -> [Stored; 3] {
+    let mut normals = [Stored([0.0; LANES]); 3];
+    for (lane, &facet) in facets.iter().enumerate() {
+        let known = lanes >> lane & 1 != 0 && facet != Packet::UNKNOWN;
+        if let (true, Some(Surface::Plane(plane))) = (known, face_of(catalog, facet)) {
+            for (axis, normals) in normals.iter_mut().enumerate() {
+                normals.0[lane] = plane.normal[axis];
+            }
+        }
+    }
+    normals
 }
 
 /// Puts a packet's pixels to their places.

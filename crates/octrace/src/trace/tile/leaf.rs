@@ -4,8 +4,9 @@ use super::beam::PART_PACKETS;
 use super::bundles::{self, bundles_of};
 use super::kernels::{Cube, GiveUp, OneByOne, Several, Single, bits_of};
 use super::lanes::Isa;
+use super::mesh::Meshed;
 use super::packet::Origins;
-use super::program::is_short;
+use super::program::{Kinds, is_short};
 use super::prune::{Parts, Pruned};
 use super::walk::Walk;
 use crate::geom::Vec3;
@@ -144,12 +145,11 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
 
     /// Evaluates a leaf's program for those packets.
     pub(super) fn evaluate(&mut self, words: &[u32], packets: u32, cube: Cube, depths: (f64, f64)) {
-        match *words {
-            _ if !self.scenery.is_plain(words) => {
-                I::call(OneByOne { walk: self, words, packets, cube, depths });
-            }
-            [word] => I::call(Single { walk: self, word, packets, cube, depths }),
-            _ => I::call(Several { walk: self, words, packets, cube, depths }),
+        match (self.scenery.kinds_of(words), words) {
+            (Kinds::Plain, &[word]) => I::call(Single { walk: self, word, packets, cube, depths }),
+            (Kinds::Plain, _) => I::call(Several { walk: self, words, packets, cube, depths }),
+            (Kinds::Meshed, _) => I::call(Meshed { walk: self, words, packets, cube, depths }),
+            (Kinds::Other, _) => I::call(OneByOne { walk: self, words, packets, cube, depths }),
         }
         self.close(packets);
     }

@@ -14,6 +14,7 @@ mod kernels;
 mod lambert;
 pub(crate) mod lanes;
 mod leaf;
+mod mesh;
 mod outer;
 mod packet;
 mod points;
@@ -42,6 +43,7 @@ use bundles::Bundles;
 use kernels::Chunk;
 use lanes::{F64s, Isa, LANES, Stored, Vector};
 use leaf::{MAX_CUTS, Slab, Slabs};
+use mesh::MeshMemo;
 use packet::{Common, Own, Packet};
 use program::Solved;
 use sort::Sorted;
@@ -76,6 +78,7 @@ pub struct RayTile {
     from_eye: bool,
     waiting: [Waiting; Waiting::MOST],
     solved: Solved,
+    meshes: MeshMemo,
     slabs: Slabs,
     chunk: Option<Box<Chunk>>,
     /// What the rays met that were traced by themselves, by packet and lane.
@@ -96,6 +99,7 @@ impl Default for RayTile {
             from_eye: false,
             waiting: [Waiting::NOTHING; Waiting::MOST],
             solved: Solved::default(),
+            meshes: MeshMemo::default(),
             slabs: [Slab::NOTHING; MAX_CUTS + 1],
             chunk: None,
             alone: Vec::new(),
@@ -211,7 +215,9 @@ impl RayTile {
             return None;
         }
         let (t, entering) = (packet.t.0[lane], packet.entering >> lane & 1 != 0);
-        let hit = hit_of(&tracer.catalog, packet.words[lane], &self.ray(number, lane), t, entering);
+        let (word, facet) = (packet.words[lane], packet.facets[lane]);
+        let known = mesh::hit_of_facet(&tracer.catalog, word, facet, t, entering);
+        let hit = known.unwrap_or_else(|| hit_of(&tracer.catalog, word, &self.ray(number, lane), t, entering));
         Some((packet.bodies[lane] as usize, hit))
     }
 }
@@ -233,6 +239,7 @@ impl Task for TraceTile<'_, '_> {
         let corner = (f64::from(corner.0), f64::from(corner.1));
         tile.beam = Beam::new(&tiles.camera, corner.0, corner.1);
         tile.from_eye = !tiles.camera.orthographic;
+        tile.meshes.forget();
         let lanes_in = |number: usize| {
             let mut wanted = 0;
             for lane in 0..LANES {

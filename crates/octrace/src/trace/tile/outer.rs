@@ -4,7 +4,7 @@ use super::kernels::{Chunk, Stretch, bits_of};
 use super::lanes::{F64s, Isa, Kernel, Mask};
 use super::leaf::packets_of;
 use super::packet::Origins;
-use super::program::{CHUNK, is_short};
+use super::program::{CHUNK, Kinds, is_short};
 use super::prune::Parts;
 use super::walk::{Lead, Scenery, Walk};
 use crate::compile::Constant;
@@ -27,7 +27,7 @@ impl<'a> Scenery<'a> {
         match &self.program.outer {
             Constant::Everywhere(inside) if *inside == self.wanted => Left::Other,
             Constant::Everywhere(_) => Left::Nothing,
-            Constant::Words(words) if is_short(words) && self.is_plain(words) => Left::Plain(words),
+            Constant::Words(words) if is_short(words) && self.kinds_of(words) == Kinds::Plain => Left::Plain(words),
             Constant::Words(_) => Left::Other,
         }
     }

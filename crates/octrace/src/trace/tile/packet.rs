@@ -62,6 +62,8 @@ pub(super) struct Packet {
     pub t: Stored,
     /// The literals that they met.
     pub words: [u32; LANES],
+    /// Of a mesh that they met, the face: its surface as the mesh refers to it, if that is known.
+    pub facets: [u32; LANES],
     /// The bodies that they met.
     pub bodies: [u32; LANES],
     /// Rays that are followed at all.
@@ -80,6 +82,9 @@ pub(super) struct Packet {
 }
 
 impl Packet {
+    /// The face is not known.
+    pub const UNKNOWN: u32 = u32::MAX;
+
     /// The camera's rays through a point of each pixel; those not `wanted` are ignored.
     #[inline(always)]
     pub fn set_out<I: Isa>(
@@ -242,6 +247,7 @@ impl Packet {
                     if t < self.t.0[lane] {
                         (self.t.0[lane], self.words[lane], self.bodies[lane]) =
                             (t, Word::shifted(word, scenery.literal_shift), scenery.body);
+                        self.facets[lane] = Self::UNKNOWN;
                         self.note(bit, scenery.wanted);
                     }
                     self.open &= !bit;

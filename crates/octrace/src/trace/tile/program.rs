@@ -21,14 +21,25 @@ pub(super) fn is_short(words: &[u32]) -> bool {
     words.len() <= MAX_WORDS && levels_at_most(words, MAX_LEVELS)
 }
 
-/// Whether all its surfaces can be crossed here.
-pub(super) fn is_plain(catalog: &Catalog, words: &[u32]) -> bool {
-    words.iter().all(|&word| match Word::decode(word) {
-        Word::Literal { .. } => {
-            matches!(surface_of(catalog, word), Some(Surface::Plane(_) | Surface::Quadric(_)))
-        }
-        Word::And { .. } | Word::Or { .. } => true,
-    })
+/// What kinds of surfaces a program has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kinds {
+    /// Planes and quadrics.
+    Plain,
+    /// Meshes too.
+    Meshed,
+    /// Others too, which lanes cannot cross.
+    Other,
+}
+
+/// What kinds of surfaces a program has.
+pub(super) fn kinds_of(catalog: &Catalog, words: &[u32]) -> Kinds {
+    let kinds = words.iter().filter_map(|&word| surface_of(catalog, word)).map(|surface| match surface {
+        Surface::Plane(_) | Surface::Quadric(_) => Kinds::Plain,
+        Surface::Mesh(_) => Kinds::Meshed,
+        Surface::Torus(_) | Surface::Placed(_) => Kinds::Other,
+    });
+    kinds.max().unwrap_or(Kinds::Plain)
 }
 
 /// The surface of a literal.
@@ -146,6 +157,12 @@ impl Solved {
                 Some(Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_)) | None => {}
             }
         }
+    }
+
+    /// Sets the crossings of the first packet of a chunk with the literal at a place of the program.
+    #[inline(always)]
+    pub fn put<I: Isa>(&mut self, at: usize, crossed: Crossed<I>) {
+        self.rows[at][0] = Row::new(crossed);
     }
 
     /// A packet, by its place in the chunk, with that program.

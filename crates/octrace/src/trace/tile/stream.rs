@@ -258,6 +258,7 @@ impl Task for TraceStream<'_, '_, '_> {
 #[inline(always)]
 fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
     tile.bundles.forget();
+    tile.meshes.forget();
     for (number, body) in tracer.bodies.iter().enumerate() {
         let Some(octree) = body.octree() else { continue };
         for packet in &mut tile.packets {

@@ -11,8 +11,9 @@ use super::bundles::Bundles;
 use super::kernels::{Chunk, Cube, Stretch, bits_of};
 use super::lanes::{F64s, Isa, LANES, Number};
 use super::leaf::Slabs;
+use super::mesh::MeshMemo;
 use super::packet::{Origins, Packet};
-use super::program::{Solved, is_plain};
+use super::program::{Kinds, Solved, kinds_of};
 use super::prune::Known;
 use crate::compile::{Catalog, Constant, Program};
 use crate::geom::Vec3;
@@ -59,10 +60,10 @@ impl<'a> Scenery<'a> {
         }
     }
 
-    /// Whether all surfaces of a program can be crossed in lanes.
+    /// What kinds of surfaces a program has.
     #[inline(always)]
-    pub(super) fn is_plain(&self, words: &[u32]) -> bool {
-        self.only_plain && self.prototypes.is_empty() || is_plain(self.catalog, words)
+    pub(super) fn kinds_of(&self, words: &[u32]) -> Kinds {
+        if self.only_plain && self.prototypes.is_empty() { Kinds::Plain } else { kinds_of(self.catalog, words) }
     }
 }
 
@@ -99,7 +100,7 @@ pub(super) enum Lead {
 /// Follows all packets to the first crossing.
 #[inline(always)]
 pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &mut RayTile, scratch: &mut Scratch) {
-    let RayTile { packets, beam, bundles, waiting, solved, slabs, chunk, .. } = tile;
+    let RayTile { packets, beam, bundles, waiting, solved, meshes, slabs, chunk, .. } = tile;
     let mut walk = Walk::<I, O> {
         scenery,
         beam,
@@ -108,6 +109,7 @@ pub(super) fn walk<I: Isa, O: Origins<I>>(scenery: Scenery, lead: Lead, tile: &m
         scratch,
         open: 0,
         solved,
+        meshes,
         slabs,
         chunk,
         known: Known::nothing(),
@@ -136,6 +138,7 @@ pub(super) struct Walk<'a, 'b, I: Isa, O: Origins<I>> {
     /// Packets with rays that have met nothing so far.
     pub open: u32,
     pub solved: &'b mut Solved,
+    pub meshes: &'b mut MeshMemo,
     pub slabs: &'b mut Slabs,
     pub chunk: &'b mut Option<Box<Chunk>>,
     pub known: Known,

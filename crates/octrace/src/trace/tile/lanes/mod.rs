@@ -221,6 +221,12 @@ impl<I: Isa> F64s<I> {
         self.is_finite().select(Self(I::plus_bits(self.0, 1)), self)
     }
 
+    /// As [`f64::next_down`], of positive numbers.
+    #[inline(always)]
+    pub fn next_down(self) -> Self {
+        self.is_finite().select(Self(I::plus_bits(self.0, u64::MAX)), self)
+    }
+
     /// Which are numbers, and not infinite.
     #[inline(always)]
     pub fn is_finite(self) -> Mask<I> {
