@@ -15,6 +15,14 @@ pub(super) struct Direction {
     angle: f64,
 }
 
+impl Direction {
+    /// The direction of an angle (radians).
+    pub fn at(angle: f64) -> Self {
+        let (sin, cos) = libm::sincos(angle);
+        Self { cos, sin, angle }
+    }
+}
+
 /// A set of directions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Arcs {
@@ -40,6 +48,14 @@ impl Arcs {
             Self::Some(arcs) => arcs.as_slice(),
         };
         arcs.iter().flat_map(|&(from, to)| [from, to])
+    }
+
+    /// The arcs by the angles (radians) of their starts and ends.
+    pub fn spans(&self) -> Vec<(f64, f64)> {
+        match self {
+            Self::Full => vec![(0.0, TAU)],
+            Self::Some(arcs) => arcs.iter().map(|(from, to)| (from.angle, to.angle)).collect(),
+        }
     }
 
     /// Keeps the directions with `a cos + b sin <= c`. Numbers below `noise` are zero.
@@ -84,13 +100,6 @@ fn common(
     })
 }
 
-/// The direction of this angle (radians).
-#[cfg(test)]
-fn direction(angle: f64) -> Direction {
-    let (sin, cos) = libm::sincos(angle);
-    Direction { cos, sin, angle }
-}
-
 const _: () = assert!(SHORTEST < PI);
 
 #[cfg(test)]
@@ -125,7 +134,7 @@ mod tests {
             let mut arcs = Arcs::Full;
             cuts.iter().for_each(|&[a, b, c]| arcs.keep(a, b, c, 0.0));
             for step in 0..360 {
-                let d = direction(f64::from(step) * 0.0174 - PI);
+                let d = Direction::at(f64::from(step) * 0.0174 - PI);
                 let slack = cuts.iter().map(|[a, b, c]| c - a * d.cos - b * d.sin).fold(f64::INFINITY, f64::min);
                 if slack.abs() > 1e-6 {
                     assert_eq!(has(&arcs, d.angle), slack > 0.0, "{cuts:?} at {}: {arcs:?}", d.angle);

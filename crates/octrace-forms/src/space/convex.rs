@@ -14,6 +14,13 @@ const COPLANAR: f64 = 2e-6;
 /// Its corners are some of the points, to the bit. A point closer than 1e-7 of the size to the hull of the others may be
 /// passed over.
 pub(crate) fn convex(points: &[Vec3]) -> Option<Polyhedron> {
+    let (corners, triangles) = triangulated(points)?;
+    let faces = merged(&corners, &triangles);
+    Polyhedron::new(corners, faces).ok()
+}
+
+/// The same as corners and triangles.
+pub(crate) fn triangulated(points: &[Vec3]) -> Option<(Vec<Vec3>, Vec<[u32; 3]>)> {
     let bounds = Bounds::around(points.iter().copied());
     if points.len() < 4 || !bounds.has_volume() || !points.iter().all(|p| p.is_finite()) {
         return None;
@@ -25,10 +32,9 @@ pub(crate) fn convex(points: &[Vec3]) -> Option<Polyhedron> {
     let hull = Manifold::hull(&distinct.iter().map(|p| linalg::Vec3::new(p.x, p.y, p.z)).collect::<Vec<_>>());
     let mesh = hull.get_mesh_gl64(-1);
     let (corners, []) = mesh.vert_properties.as_chunks::<3>() else { return None };
-    let corners: Vec<Vec3> = corners.iter().map(|&p| Vec3::from(p)).collect();
-    let triangles: Vec<[u32; 3]> = mesh.tri_verts.as_chunks::<3>().0.iter().map(|t| t.map(|i| i as u32)).collect();
-    let faces = merged(&corners, &triangles);
-    Polyhedron::new(corners, faces).ok()
+    let corners = corners.iter().map(|&p| Vec3::from(p)).collect();
+    let triangles = mesh.tri_verts.as_chunks::<3>().0.iter().map(|t| t.map(|i| i as u32)).collect();
+    Some((corners, triangles))
 }
 
 /// The triangles of a closed surface put together to faces whose corners lie in a plane.

@@ -113,6 +113,22 @@ impl Round {
         Bounds::new(center - extent, center + extent)
     }
 
+    /// Points on it, whose hull is nowhere further than `tolerance` (scene units) from its own.
+    pub fn points_on(&self, tolerance: f64, points: &mut Vec<Vec3>) {
+        match *self {
+            // A circle has fewer points than a ball: they may be as close.
+            Self::Ellipse { center, axes: [a, b] } => {
+                circle(center, a, b, fragments(longest(&[a, b]), tolerance).max(64), Fit::Inside, points);
+            }
+            Self::Ellipsoid { .. } => self.sample(tolerance, Fit::Inside, points),
+            Self::Ring { center, axes: [a, b, c], minor } => {
+                let (around, along) = (longest(&[a, b]) * (1.0 + minor), longest(&[a, b, c]) * minor);
+                let (n, m) = (fragments(around, tolerance).max(64), fragments(along, tolerance).max(32));
+                ring(center, [a, b, c], minor, [n, m], Fit::Inside, points);
+            }
+        }
+    }
+
     fn sample(&self, tolerance: f64, fit: Fit, points: &mut Vec<Vec3>) {
         // Rounded edges of large things are small; they shall look round too.
         let fragments = |radius: f64, tolerance: f64, least: u32| match fit {
@@ -131,12 +147,7 @@ impl Round {
             Self::Ring { center, axes: [a, b, c], minor } => {
                 let (around, along) = (longest(&[a, b]) * (1.0 + minor), longest(&[a, b, c]) * minor);
                 let (n, m) = (fragments(around, tolerance, 96), fragments(along, tolerance * FINER, 64));
-                let tube = minor * fit.factor(swelling(m));
-                for i in 0..m {
-                    let (s, c_) = sin_cos_deg(360.0 * f64::from(i) / f64::from(m));
-                    let radius = 1.0 + tube * c_;
-                    circle(center + c * (tube * s), a * radius, b * radius, n, fit, points);
-                }
+                ring(center, [a, b, c], minor, [n, m], fit, points);
             }
         }
     }
@@ -175,6 +186,19 @@ fn circle(center: Vec3, a: Vec3, b: Vec3, n: u32, fit: Fit, points: &mut Vec<Vec
         let (s, c) = sin_cos_deg(360.0 * f64::from(i) / f64::from(n));
         center + (a * c + b * s) * factor
     }));
+}
+
+/// The corners of `m` polygons of `n` corners in place of a ring. Those on the side of the axis are in no hull.
+fn ring(center: Vec3, [a, b, c]: [Vec3; 3], minor: f64, [n, m]: [u32; 2], fit: Fit, points: &mut Vec<Vec3>) {
+    let tube = minor * fit.factor(swelling(m));
+    for i in 0..m {
+        let (s, c_) = sin_cos_deg(360.0 * f64::from(i) / f64::from(m));
+        if c_ < 0.0 {
+            continue;
+        }
+        let radius = 1.0 + tube * c_;
+        circle(center + c * (tube * s), a * radius, b * radius, n, fit, points);
+    }
 }
 
 /// The corners of a polyhedron with the volume of the unit ball: two poles, and rings of `n` corners.

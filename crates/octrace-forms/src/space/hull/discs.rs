@@ -11,7 +11,7 @@
 //!
 //! A corner is a disc of radius zero.
 
-use super::super::arcs::Arcs;
+use super::super::arcs::{Arcs, Direction};
 use super::super::convex::convex;
 use super::super::frusta::between;
 use octrace::{Bounds, Solid, Vec3};
@@ -32,36 +32,82 @@ const LEVEL: f64 = 1e-9;
 
 /// The hull of the discs. Costs about the third power of their number where all of them are on the hull.
 pub(crate) fn hull(discs: &[Disc]) -> Solid {
-    let reach = |d: &Disc| [-1.0, 1.0].map(|sign| d.center + Vec3::new(d.radius, d.radius, 0.0) * sign);
-    let size = Bounds::around(discs.iter().flat_map(reach)).diagonal();
-    let noise = NOISE * size;
-    let discs = without_hidden(&levelled(discs, LEVEL * size), noise);
+    let Prepared { discs, noise, .. } = Prepared::new(discs, LEVEL);
     let mut touched: Vec<Vec3> = discs.iter().filter(|d| d.radius == 0.0).map(|d| d.center).collect();
     let mut cones = Vec::new();
-    for (i, a) in discs.iter().enumerate() {
-        for (j, b) in discs.iter().enumerate().skip(i + 1) {
-            if a.center.z == b.center.z {
-                continue;
-            }
-            let mut arcs = Arcs::Full;
-            for (k, other) in discs.iter().enumerate() {
-                if k != i && k != j && !arcs.is_empty() {
-                    keep_clear_of(a, b, other, noise, &mut arcs);
-                }
-            }
-            if arcs.is_empty() {
-                continue;
-            }
-            let [foot, head] = [a, b].map(|d| (d.center, d.radius));
-            cones.push(between(foot, head, [Vec3::X, Vec3::Y]));
-            for end in arcs.ends() {
-                let outward = Vec3::new(end.cos, end.sin, 0.0);
-                touched.extend([a, b].map(|disc| disc.center + outward * disc.radius));
-            }
+    for Slant { discs: [a, b], arcs } in slants(&discs, noise) {
+        let [foot, head] = [a, b].map(|d| (d.center, d.radius));
+        cones.push(between(foot, head, [Vec3::X, Vec3::Y]));
+        for end in arcs.ends() {
+            touched.extend([a, b].map(|disc| disc.rim(end.outward())));
         }
     }
     let polyhedron = convex(&touched).map(Solid::primitive);
     Solid::union(polyhedron.into_iter().chain(cones))
+}
+
+impl Disc {
+    /// The point of the rim in a horizontal direction of length one.
+    pub fn rim(&self, outward: Vec3) -> Vec3 {
+        self.center + outward * self.radius
+    }
+}
+
+impl Direction {
+    /// The direction as a horizontal one.
+    pub fn outward(self) -> Vec3 {
+        Vec3::new(self.cos, self.sin, 0.0)
+    }
+}
+
+/// Discs that can be on the hull, with their heights made equal where they should be.
+pub(super) struct Prepared {
+    pub discs: Vec<Disc>,
+    /// Length of the diagonal of the box around all discs.
+    pub size: f64,
+    /// Lengths below this are rounding.
+    pub noise: f64,
+}
+
+impl Prepared {
+    /// Heights closer than the share `level` of the size are made one.
+    pub fn new(discs: &[Disc], level: f64) -> Self {
+        let reach = |d: &Disc| [-1.0, 1.0].map(|sign| d.center + Vec3::new(d.radius, d.radius, 0.0) * sign);
+        let size = Bounds::around(discs.iter().flat_map(reach)).diagonal();
+        let noise = NOISE * size;
+        Self { discs: without_hidden(&levelled(discs, level * size), noise), size, noise }
+    }
+}
+
+/// Two discs at different heights that planes touch which have all others behind them.
+pub(super) struct Slant {
+    pub discs: [Disc; 2],
+    /// The directions of the planes' normals, as seen from above.
+    pub arcs: Arcs,
+}
+
+impl Slant {
+    /// The normal at a direction from above; not of length one.
+    pub fn normal(&self, outward: Vec3) -> Vec3 {
+        let [a, b] = self.discs;
+        let to_b = b.center - a.center;
+        outward - Vec3::Z * ((to_b.dot(outward) + b.radius - a.radius) / to_b.z)
+    }
+}
+
+/// All such pairs of discs.
+pub(super) fn slants(discs: &[Disc], noise: f64) -> impl Iterator<Item = Slant> + '_ {
+    let pairs = discs.iter().enumerate().flat_map(|(i, a)| discs[i + 1..].iter().map(move |b| [a, b]));
+    pairs.filter(|[a, b]| a.center.z != b.center.z).filter_map(move |[a, b]| {
+        let mut arcs = Arcs::Full;
+        for other in discs.iter().filter(|&other| other != a && other != b) {
+            if arcs.is_empty() {
+                return None;
+            }
+            keep_clear_of(a, b, other, noise, &mut arcs);
+        }
+        (!arcs.is_empty()).then_some(Slant { discs: [*a, *b], arcs })
+    })
 }
 
 /// The discs with heights that are equal or differ by more than rounding.

@@ -74,6 +74,46 @@ pub(super) fn discs(extremes: &Extremes) -> Option<Framed<Disc>> {
     })
 }
 
+/// Discs that are all rounded by a ball of one radius.
+pub(super) struct Rounded {
+    pub discs: Framed<Disc>,
+    /// The ball's radius, in the coordinates of the discs.
+    pub round: f64,
+}
+
+/// Coordinates in which all is horizontal rings with tubes of one radius, and balls of that radius, if there are any.
+pub(super) fn rounded(extremes: &Extremes) -> Option<Rounded> {
+    if !extremes.points.is_empty() {
+        return None;
+    }
+    let first = extremes.rounds.iter().find_map(|round| match *round {
+        Round::Ring { axes, .. } => Some(axes),
+        Round::Ellipse { .. } | Round::Ellipsoid { .. } => None,
+    })?;
+    let is_ball = |[u, v, w]: [Vec3; 3]| square(u, v) && square(v, w) && square(u, w);
+    let own = if is_ball(first) { first.map(|a| a / a.length()) } else { first };
+    [Affine::IDENTITY, linear(own)].into_iter().find_map(|map| {
+        let inverse = map.inverse()?;
+        let disc = |round: &Round| {
+            let (center, axes, ring) = match *round {
+                Round::Ring { center, axes, minor } => (center, axes, Some(minor)),
+                Round::Ellipsoid { center, axes } => (center, axes, None),
+                Round::Ellipse { .. } => return None,
+            };
+            let axes = axes.map(|a| inverse.vector(a));
+            let size = axes[0].length();
+            let upright = axes[2].x.abs().max(axes[2].y.abs()) <= SIMILAR * size;
+            let (radius, tube) = ring.map_or((0.0, size), |minor| (size, size * minor));
+            (is_ball(axes) && (ring.is_none() || upright))
+                .then(|| (Disc { center: inverse.point(center), radius }, tube))
+        };
+        let all = extremes.rounds.iter().map(disc).collect::<Option<Vec<(Disc, f64)>>>()?;
+        let round = all.first()?.1;
+        let same = all.iter().all(|(_, tube)| (tube - round).abs() <= SIMILAR * round);
+        same.then(|| Rounded { discs: Framed { things: all.into_iter().map(|(disc, _)| disc).collect(), map }, round })
+    })
+}
+
 /// An axis about which everything is turned, if there is one, and all by their sections.
 pub(super) fn turned(extremes: &Extremes) -> Option<(Vec<Ring>, Axis)> {
     let first = extremes.rounds.iter().find_map(|round| match *round {

@@ -4,15 +4,26 @@
 //! - blocks, polyhedra and whatever else has only corners: a convex polyhedron;
 //! - balls of any sizes, and corners: see [`balls`];
 //! - cylinders and cones whose circles lie in parallel planes, and corners: see [`discs`];
+//! - parallel rings and balls with tubes of one radius, so cylinders and plates with rounded edges: see [`rounded`];
 //! - balls, cylinders, cones and tori about one axis: see [`turned`];
 //!
-//! the first three moved by any affine map as a whole. Holes that the hull does not see do not matter: see [`uncut`].
-//! Everything else becomes a convex polyhedron with corners near
-//! what is round, within the tolerance and so that the volume is right.
+//! all but the last moved by any affine map as a whole. Holes that the hull does not see do not matter: see [`uncut`].
+//! Of everything else those parts are exact that are between things of one of these kinds; for the rest there are strips
+//! of planes, inside of the hull and within the tolerance: see [`patched`].
 
 mod balls;
 mod discs;
 mod frame;
+mod kinds;
+mod net;
+mod patched;
+#[cfg(test)]
+mod patched_tests;
+mod rounded;
+#[cfg(test)]
+mod rounded_tests;
+mod strips;
+mod support;
 #[cfg(test)]
 mod tests;
 mod turned;
@@ -62,16 +73,26 @@ pub(super) fn hull_of(mut extremes: Extremes, tolerance: Tolerance) -> Solid {
         extremes.points = hull.points().to_vec();
     }
     if extremes.points.len() + extremes.rounds.len() <= MOST {
-        if let Some(framed) = frame::balls(&extremes) {
-            return balls::hull(&framed.things).transform(framed.map);
-        }
-        if let Some(framed) = frame::discs(&extremes) {
-            return discs::hull(&framed.things).transform(framed.map);
-        }
-        if let Some((rings, axis)) = frame::turned(&extremes) {
-            return turned::hull(&rings, &axis);
+        let deviation = patched::STRIPS * tolerance.relative * extremes.size();
+        if let Some(hull) = exact(&extremes, deviation).or_else(|| patched::hull(&extremes, tolerance)) {
+            return hull;
         }
     }
     let points = extremes.sampled(tolerance.relative * extremes.size(), Fit::Inside);
     convex(&points).map_or_else(Solid::empty, Solid::primitive)
+}
+
+/// The hull of things that are of one kind, if they are. What strips there are, are within `deviation` (scene units).
+fn exact(extremes: &Extremes, deviation: f64) -> Option<Solid> {
+    if let Some(framed) = frame::balls(extremes) {
+        return Some(balls::hull(&framed.things).transform(framed.map));
+    }
+    if let Some(framed) = frame::discs(extremes) {
+        return Some(discs::hull(&framed.things).transform(framed.map));
+    }
+    if let Some((rings, axis)) = frame::turned(extremes) {
+        return Some(turned::hull(&rings, &axis));
+    }
+    let frame::Rounded { discs, round } = frame::rounded(extremes)?;
+    Some(rounded::hull(&discs.things, round, deviation).transform(discs.map))
 }
