@@ -7,23 +7,22 @@
 //!   plate with rounded edges;
 //! - circles in parallel planes, balls and balls, a circle or a ring and a ball.
 //!
-//! Upright prisms, blocks and cylinders, also with holes from bottom to top, have the sum of their outlines: exact with an
-//! upright cylinder, or where outlines are polygons.
+//! Prisms, blocks and cylinders of one direction, also with holes from end to end, have the sum of their outlines: exact with
+//! a cylinder of that direction, with a ball, or where outlines are polygons.
 //!
 //! Other convex pieces are replaced by polyhedra within the tolerance. What has no convex pieces becomes a mesh, with
 //! fewer corners on round things the larger it is; a sum of two such solids must be small.
 
 use super::SpaceError;
 use super::convex::convex;
-use super::hull::{hull_of, square};
+use super::hull::{STRIPS, hull_of, square};
 use super::leaves::{Leaf, leaves};
 use super::mesh::{TriangleMesh, manifold, union};
 use super::pieces::{is_convex_primitive, pieces};
 use super::round::{Extremes, Fit, Round};
-use super::slab::Slab;
+use super::slab_sum::sum_of_slabs;
 use crate::Tolerance;
 use manifold_rust::manifold::Manifold;
-use octrace::model::Node;
 use octrace::{Polyhedron, Solid, Vec3};
 
 /// So many pairs of pieces have their sums made at most; with more, operands become meshes.
@@ -65,23 +64,6 @@ pub fn minkowski(solids: &[Solid], tolerance: Tolerance) -> Result<Solid, SpaceE
         parts.extend(TriangleMesh::of(other)?.polyhedron().map(Solid::primitive));
     }
     Ok(Solid::union(parts))
-}
-
-/// The sum where all operands are outlines between two heights, and not all of them convex.
-fn sum_of_slabs(solids: &[Solid], tolerance: Tolerance) -> Result<Option<Solid>, SpaceError> {
-    let leaves = leaves(solids);
-    if leaves.iter().all(|(_, leaf)| matches!(leaf, Leaf::Primitive(p) if is_convex_primitive(p))) {
-        return Ok(None);
-    }
-    let mut sum: Option<Slab> = None;
-    for solid in solids.iter().filter(|solid| !matches!(solid.node(), Node::Empty)) {
-        let Some(slab) = Slab::new(solid, tolerance)? else { return Ok(None) };
-        sum = Some(match sum {
-            None => slab,
-            Some(sum) => sum.plus(&slab, tolerance)?,
-        });
-    }
-    Ok(sum.map(Slab::solid))
 }
 
 impl Operand {
@@ -188,7 +170,8 @@ impl Extremes {
 
     /// The same with corners only, within the tolerance.
     fn with_corners(&self, tolerance: Tolerance) -> Self {
-        let points = self.sampled(tolerance.relative * self.size(), Fit::Inside);
+        let (deviation, mut points) = (STRIPS * tolerance.relative * self.size(), self.points.clone());
+        self.rounds.iter().for_each(|round| round.points_on(deviation, &mut points));
         Self { points: convex(&points).map_or(points, |p| p.points().to_vec()), rounds: Vec::new() }
     }
 }

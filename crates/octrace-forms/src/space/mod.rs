@@ -15,9 +15,11 @@ mod mesh;
 mod minkowski;
 mod pieces;
 mod round;
+mod rounding;
 mod section;
 mod shadow;
 mod slab;
+mod slab_sum;
 mod swept;
 
 pub use bounds::{bounds, resize, tight_bounds};

@@ -6,17 +6,16 @@ use super::fold::fold;
 use crate::Tolerance;
 use crate::plane::{Affine2, Outline, combine};
 use octrace::{Affine, BoolOp, Primitive, Profile, Solid, Vec2};
-use std::sync::Arc;
 
-/// Heights that differ by less than this share of them are the same: files have six digits.
-const LEVEL: f64 = 1e-9;
+/// Heights that differ by less than this share of them are the same, and so are directions: files have six digits.
+const LEVEL: f64 = 2e-6;
 
 /// An outline between two heights.
 #[derive(Clone, Debug)]
 pub(super) struct Slab {
-    outline: Outline,
-    low: f64,
-    high: f64,
+    pub outline: Outline,
+    pub low: f64,
+    pub high: f64,
 }
 
 impl Slab {
@@ -87,9 +86,12 @@ impl Slab {
     }
 
     pub fn solid(self) -> Solid {
-        let Ok(profile) = Profile::new(self.outline.contours) else { return Solid::empty() };
-        Solid::primitive(Primitive::Prism { profile: Arc::new(profile), top: 1.0 })
-            .scale([1.0, 1.0, self.high - self.low])
-            .translate([0.0, 0.0, self.low])
+        prism(self.outline, self.low, self.high)
     }
+}
+
+/// What is above an outline between two heights.
+pub(super) fn prism(outline: Outline, low: f64, high: f64) -> Solid {
+    let Ok(profile) = Profile::new(outline.contours) else { return Solid::empty() };
+    Solid::prism(profile).scale([1.0, 1.0, high - low]).translate([0.0, 0.0, low])
 }

@@ -30,6 +30,9 @@ mod turned;
 mod uncut;
 
 pub(super) use frame::square;
+pub(super) use patched::STRIPS;
+#[cfg(test)]
+pub(super) use tests::check_leaks;
 
 use super::SpaceError;
 use super::convex::convex;

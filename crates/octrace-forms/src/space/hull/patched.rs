@@ -23,7 +23,7 @@ use std::collections::BTreeSet;
 const NOISE: f64 = 1e-12;
 
 /// How far strips may be off, as a share of the tolerance: volumes are off by several times as much.
-pub(super) const STRIPS: f64 = 0.25;
+pub(in crate::space) const STRIPS: f64 = 0.25;
 
 /// The hull; `None` where it has no volume.
 pub(super) fn hull(extremes: &Extremes, tolerance: Tolerance) -> Option<Solid> {
@@ -115,7 +115,7 @@ impl Patches {
                         None => self.add_as_it_is(triangle),
                     }
                 }
-                let strips = rulings(&things, &found, self.precision, |ruling| self.is_seen(ruling));
+                let strips = rulings(&things, &found, self.precision);
                 self.touched.extend(strips.iter().flat_map(|ruling| ruling.points));
             }
         }
@@ -128,12 +128,6 @@ impl Patches {
 
     fn add_as_it_is(&mut self, triangle: usize) {
         self.touched.extend(self.net.triangles[triangle].map(|v| self.net.points[v as usize]));
-    }
-
-    /// Whether the plane has all things behind it.
-    fn is_seen(&self, ruling: &Ruling) -> bool {
-        let limit = ruling.points[0].dot(ruling.normal) + 4.0 * self.precision.noise;
-        self.things.iter().all(|thing| thing.reach(ruling.normal) <= limit)
     }
 
     /// The hulls of what is of one kind, as far as it is seen.

@@ -1,13 +1,12 @@
 //! Strips of planes in place of the surfaces, neither cones nor cylinders, that hulls have between things such as slanted discs.
 //!
 //! Between two things a plane rolls that touches both; where it touches is a straight line, a ruling. A few rulings come in
-//! as a chain; more are found between them, until a strip from one to the next is nowhere farther from the surface than
-//! it may be.
+//! as a chain; from them as many are found as it takes for strips to be nowhere farther from the surface than they may be.
 
 use super::support::{Thing, Touch, touch};
 
-/// Strips are halved so often at most.
-const DEEPEST: u32 = 10;
+/// So many strips are between two things at most.
+const MOST: u32 = 4096;
 
 /// A ruling, with the normal of the plane that touches there.
 pub(super) type Ruling = Touch<2>;
@@ -29,39 +28,26 @@ impl Ruling {
     }
 }
 
-/// As many rulings between two things as are needed, from one that is in the chain to the next, and no more. `is_seen` says
-/// whether a plane has everything behind it.
-pub(super) fn rulings(
-    things: &[Thing; 2],
-    chain: &[Ruling],
-    precision: Precision,
-    is_seen: impl Fn(&Ruling) -> bool,
-) -> Vec<Ruling> {
-    let mut fine: Vec<Ruling> = Vec::new();
+/// As many rulings between two things as are needed, from the first of the chain to the last, evenly: strips between them
+/// are as far off as they may be.
+pub(super) fn rulings(things: &[Thing; 2], chain: &[Ruling], precision: Precision) -> Vec<Ruling> {
+    let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return Vec::new() };
+    // How many strips there have to be up to each of the chain, for a circle's sagitta goes with the square of its angle.
+    let mut strips = vec![0.0];
     for pair in chain.windows(2) {
-        let mut pending = vec![(pair[0].clone(), pair[1].clone(), 0)];
-        while let Some((start, end, depth)) = pending.pop() {
-            // Twice as many as needed, so that most of the surplus can go.
-            let middle = (depth < DEEPEST && start.sagitta(&end) > 0.5 * precision.deviation)
-                .then(|| touch(things, start.normal + end.normal, precision.noise))
-                .flatten()
-                .filter(&is_seen);
-            match middle {
-                Some(middle) => pending.extend([(middle.clone(), end, depth + 1), (start, middle, depth + 1)]),
-                None => fine.push(start),
-            }
-        }
+        let more = (pair[0].sagitta(&pair[1]) / precision.deviation).sqrt();
+        strips.push(strips[strips.len() - 1] + more);
     }
-    fine.extend(chain.last().cloned());
-    let mut kept: Vec<Ruling> = Vec::new();
-    for (i, ruling) in fine.iter().enumerate() {
-        let needed = match (kept.last(), fine.get(i + 1)) {
-            (Some(last), Some(next)) => last.sagitta(next) > precision.deviation,
-            _ => true,
-        };
-        if needed {
-            kept.push(ruling.clone());
-        }
-    }
-    kept
+    let total = strips[strips.len() - 1];
+    let count = (total.ceil() as u32).clamp(1, MOST);
+    let between = |i: u32| {
+        let at = total * f64::from(i) / f64::from(count);
+        let next = strips.partition_point(|&strip| strip <= at).clamp(1, chain.len() - 1);
+        let share = (at - strips[next - 1]) / (strips[next] - strips[next - 1]);
+        let (start, end) = (&chain[next - 1], &chain[next]);
+        let near = start.normal * (1.0 - share) + end.normal * share;
+        touch(things, near, precision.noise).unwrap_or_else(|| start.clone())
+    };
+    let inner = if chain.len() > 1 { 1..count } else { 0..0 };
+    std::iter::once(first.clone()).chain(inner.map(between)).chain([last.clone()]).collect()
 }

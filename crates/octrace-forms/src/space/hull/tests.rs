@@ -282,7 +282,7 @@ fn rays_see_the_same_hull_with_and_without_an_octree() {
 }
 
 /// Whether rays see the same with and without an octree.
-pub(super) fn check_leaks(hull: &Solid) {
+pub(in crate::space) fn check_leaks(hull: &Solid) {
     let exec = Exec::with_threads(1);
     let with = Tracer::build(hull, &TracerOptions::default(), &exec).unwrap();
     let without = TracerOptions { accel: octrace::Accel::None, ..TracerOptions::default() };

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// An edge as it is walked: from, to, and the curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Walk {
+pub(in crate::space) struct Walk {
     pub from: Vec2,
     pub to: Vec2,
     pub curve: Curve,
@@ -23,6 +23,27 @@ impl Walk {
         // An edge that comes back to where it started is the whole circle.
         let ahead = if self.from == self.to { TAU } else { ahead.rem_euclid(TAU) };
         Some((start, if ccw { ahead } else { -ahead }))
+    }
+
+    /// The direction, of length one, in which it starts.
+    pub fn tangent_at_start(&self) -> Vec2 {
+        self.tangent(self.from)
+    }
+
+    /// The direction, of length one, in which it ends.
+    pub fn tangent_at_end(&self) -> Vec2 {
+        self.tangent(self.to)
+    }
+
+    fn tangent(&self, at: Vec2) -> Vec2 {
+        let along = match self.curve {
+            Curve::Arc { center, ccw, .. } => {
+                let side = at - center;
+                if ccw { Vec2::new(-side.y, side.x) } else { Vec2::new(side.y, -side.x) }
+            }
+            Curve::Line => self.to - self.from,
+        };
+        along * (1.0 / along.dot(along).sqrt())
     }
 
     /// Whether an arc has the point of its circle at this angle (radians).
@@ -103,7 +124,7 @@ impl Walk {
 }
 
 /// The edges of a contour, each with where it ends.
-pub(super) fn walk(contour: &Contour) -> impl Iterator<Item = Walk> + '_ {
+pub(in crate::space) fn walk(contour: &Contour) -> impl Iterator<Item = Walk> + '_ {
     let next = contour.iter().cycle().skip(1);
     contour.iter().zip(next).map(|(&Edge { from, curve }, next)| Walk { from, to: next.from, curve })
 }

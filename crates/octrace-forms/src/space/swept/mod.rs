@@ -10,5 +10,6 @@ mod rings;
 mod tests;
 
 pub(crate) use convexity::{is_convex, is_convex_revolution, straight_parts};
+pub(super) use edge::{Walk, walk};
 pub(crate) use mesh::{prism_mesh, revolution_mesh};
 pub(crate) use rings::{reaches, rings_at};
