@@ -7,7 +7,7 @@ use crate::compile::{
     Boxes, Catalog, Constant, Entry, Items, Lattice, LatticeCell, Program, node_end, without_repeats,
 };
 use crate::exec::{Cancelled, Exec};
-use crate::geom::Vec3;
+use crate::geom::{Bounds, Vec3};
 use crate::surface::Octants;
 use rayon::prelude::*;
 
@@ -35,29 +35,29 @@ impl BuildOptions {
     pub const MAX_DEPTH: u32 = 20;
 }
 
-/// Builds the octree of a body, no deeper than `max_depth` (at most [`BuildOptions::MAX_DEPTH`]); `None` where nothing in it
-/// is bounded.
+/// Builds the octree of a body around a `room`, which holds all of it that is bounded, no deeper than `max_depth` (at most
+/// [`BuildOptions::MAX_DEPTH`]); `None` where the room is empty, or the body all or nothing.
 ///
 /// # Errors
 /// If `exec` is cancelled.
 pub fn build(
     catalog: &Catalog,
     program: &Program,
+    room: &Bounds,
     options: &BuildOptions,
     max_depth: u32,
     exec: &Exec,
 ) -> Result<Option<Octree>, Cancelled> {
-    let bounds = program.bounds;
     let Constant::Words(words) = &program.whole else { return Ok(None) };
-    if bounds.is_empty() {
+    if room.is_empty() {
         return Ok(None);
     }
-    let largest = bounds.size().max_abs();
-    let farthest = bounds.min.max_abs().max(bounds.max.max_abs());
+    let largest = room.size().max_abs();
+    let farthest = room.min.max_abs().max(room.max.max_abs());
     // Faces love round numbers. A cube of an odd size in an odd place keeps cell walls off them; it is hardly larger than
     // what is in it, lest rays come through cells before they come to anything.
     let half = short((0.5 * 1.004 * largest).max(farthest * 1e-9).max(f64::MIN_POSITIVE * 1e30));
-    let center = bounds.center() + Vec3::new(0.001_37, 0.001_13, 0.001_27) * half;
+    let center = room.center() + Vec3::new(0.001_37, 0.001_13, 0.001_27) * half;
     let center = Vec3::from(center.to_array().map(|c| (c / half * 8192.0).round() / 8192.0 * half));
     // Hits are computed to some 1e-14 of the distances involved; the margin leaves plenty.
     let margin = (1e-8 * half).max(1e-12 * farthest);

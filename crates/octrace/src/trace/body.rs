@@ -10,7 +10,7 @@ use super::prepared::Prepared;
 use super::{Scratch, canonical};
 use crate::compile::{Catalog, Constant, Program, Simplified, Simplifier};
 use crate::exec::{Cancelled, Exec, with_stack_for};
-use crate::geom::{Hit, Ray, Span, Spans, SpansBuilder};
+use crate::geom::{Bounds, Hit, Ray, Span, Spans, SpansBuilder};
 use crate::octree::{Octree, build};
 use crate::surface::{CellBox, Side};
 use crate::traverse::{Step, Traversal, TraversalKind, root_interval};
@@ -31,10 +31,13 @@ pub(super) struct Body {
 }
 
 impl Body {
+    /// Of what is not bounded, only what is in the `room` is accelerated.
+    ///
     /// # Errors
     /// If `exec` is cancelled.
     pub fn build(
         program: Program,
+        room: &Bounds,
         prototypes: &Arc<[Body]>,
         catalog: &Catalog,
         options: &TracerOptions,
@@ -43,7 +46,7 @@ impl Body {
         let octree = match options.accel {
             Accel::None => None,
             Accel::Octree => {
-                let octree = build(catalog, &program, &options.octree, options.traversal.max_depth(), exec)?;
+                let octree = build(catalog, &program, room, &options.octree, options.traversal.max_depth(), exec)?;
                 octree.map(|octree| {
                     let traversal = Traversal::new(options.traversal, &octree);
                     (octree, traversal)

@@ -14,6 +14,7 @@ use crate::model::{PartId, Solid};
 use crate::octree::Octree;
 use crate::surface::{CellBox, Side, Surface};
 use crate::traverse::Traversal;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Scratch memory of a worker, and what it counted.
@@ -79,12 +80,17 @@ impl Tracer {
         let prototypes = catalog
             .prototypes
             .iter()
-            .map(|prototype| Body::build(prototype.program.clone(), &none, &catalog, options, exec));
+            .map(|prototype| &prototype.program)
+            .map(|program| Body::build(program.clone(), &program.bounds, &none, &catalog, options, exec));
         let prototypes = prototypes.collect::<Result<Arc<[Body]>, Cancelled>>()?;
         let bodies = compiled
             .bodies
             .into_iter()
-            .map(|program| Body::build(program, &prototypes, &catalog, options, exec))
+            .map(|program| {
+                // A floor beside bounded things is accelerated where those are.
+                let room = if program.bounds.is_empty() { bounds } else { program.bounds };
+                Body::build(program, &room, &prototypes, &catalog, options, exec)
+            })
             .collect::<Result<_, Cancelled>>()?;
         let only_plain =
             !catalog.surfaces.iter().any(|surface| matches!(surface, Surface::Torus(_) | Surface::Mesh(_)));
@@ -111,8 +117,19 @@ impl Tracer {
     /// The first crossing of any body's surface at `0 < t <= end`, and which body's; the first body's where several are
     /// crossed at once.
     pub fn first_body_hit(&self, ray: &Ray, end: f64, scratch: &mut Scratch) -> Option<(usize, Hit)> {
+        self.first_hit_of(0..self.bodies.len(), ray, end, scratch)
+    }
+
+    /// As [`first_body_hit`](Self::first_body_hit), of some bodies.
+    pub(crate) fn first_hit_of(
+        &self,
+        bodies: Range<usize>,
+        ray: &Ray,
+        end: f64,
+        scratch: &mut Scratch,
+    ) -> Option<(usize, Hit)> {
         let mut first: Option<(usize, Hit)> = None;
-        for body in 0..self.bodies.len() {
+        for body in bodies {
             let end = first.map_or(end, |(_, hit)| hit.t);
             let hit = self.body_hit(body, ray, end, scratch);
             if let Some(hit) = hit

@@ -76,7 +76,8 @@ fn walked(octree: &Octree, kind: TraversalKind, ray: &Ray, (t_in, t_out): (f64, 
 fn octree_of(solid: &Solid, depth: u32) -> Option<Octree> {
     let compiled = compile(std::slice::from_ref(solid), 0.0, Copies::Apart);
     let options = BuildOptions { leaf_surfaces: 0, depth: Some(depth) };
-    build(&compiled.catalog, &compiled.bodies[0], &options, BuildOptions::MAX_DEPTH, &Exec::with_threads(1))
+    let body = &compiled.bodies[0];
+    build(&compiled.catalog, body, &body.bounds, &options, BuildOptions::MAX_DEPTH, &Exec::with_threads(1))
         .expect("nobody cancels")
 }
 
