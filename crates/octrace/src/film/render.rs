@@ -110,7 +110,7 @@ fn integrator<'a>(scene: &'a Scene, tracer: &'a Tracer, view: &View) -> Whitted<
         },
         transparent: view.background == Background::Transparent,
     };
-    Whitted::new(scene, tracer, lighting, scene.bodies().ior, view.max_bounces)
+    Whitted::new(scene, tracer, lighting, &scene.bodies(), view.max_bounces)
 }
 
 impl AddAssign for RenderStats {

@@ -15,6 +15,8 @@ pub struct Bodies {
     pub solids: Vec<Solid>,
     /// The index of refraction inside each body.
     pub ior: Vec<f64>,
+    /// Whether no light passes anything that a body is made of.
+    pub opaque: Vec<bool>,
 }
 
 impl Scene {
@@ -22,7 +24,7 @@ impl Scene {
     pub fn bodies(&self) -> Bodies {
         let transparent = |part: &super::Part| part.material.is_transparent();
         if !self.parts.iter().any(transparent) {
-            return Bodies { solids: vec![self.solid.clone()], ior: vec![1.0] };
+            return Bodies { solids: vec![self.solid.clone()], ior: vec![1.0], opaque: vec![true] };
         }
         let mut opaque = Vec::new();
         let mut clear: BTreeMap<PartId, Vec<Solid>> = BTreeMap::new();
@@ -50,16 +52,33 @@ impl Scene {
                 }
             }
         }
-        let mut bodies = Bodies { solids: Vec::new(), ior: Vec::new() };
+        let mut bodies = Bodies { solids: Vec::new(), ior: Vec::new(), opaque: Vec::new() };
         if !opaque.is_empty() {
+            let is_opaque = opaque.iter().all(|solid| self.is_opaque(solid));
             bodies.solids.push(Solid::union(opaque));
             bodies.ior.push(1.0);
+            bodies.opaque.push(is_opaque);
         }
         for (id, solids) in clear {
             bodies.solids.push(Solid::union(solids));
             bodies.ior.push(self.material(Some(id)).ior);
+            bodies.opaque.push(false);
         }
         bodies
+    }
+
+    /// Whether no light passes anything that a solid is made of.
+    fn is_opaque(&self, solid: &Solid) -> bool {
+        let mut pending = vec![solid];
+        while let Some(solid) = pending.pop() {
+            match solid.node() {
+                Node::Empty | Node::Primitive(_) => {}
+                Node::Part(id, _) if self.material(Some(*id)).is_transparent() => return false,
+                Node::Transform(_, child) | Node::Part(_, child) => pending.push(child),
+                Node::Combine(_, children) => pending.extend(children),
+            }
+        }
+        true
     }
 }
 

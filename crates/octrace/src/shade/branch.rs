@@ -75,11 +75,7 @@ impl Task for GoOn<'_> {
                 refracted_weight: Stored::default(),
                 beyond: [Media::default(); LANES],
             };
-            let mut weight = Stored::default();
-            for (weight, standing) in weight.0.iter_mut().zip(standings) {
-                *weight = standing.weight;
-            }
-            let weight = F64s::<I>::load(&weight);
+            let weight = F64s::<I>::load(&met.weight);
             let mut kr = kr;
             if transparent.any() {
                 let ratio = media(integrator, &hits[from], met, transparent.bits(), standings, &mut found.beyond);

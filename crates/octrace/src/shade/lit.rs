@@ -2,7 +2,7 @@
 
 use super::light::EightSeen;
 use super::meet::EightMet;
-use super::whitted::{FAINT, Whitted};
+use super::whitted::{FAINT, LEAST_WEIGHT, Whitted};
 use crate::model::{Light, Rgb};
 use crate::trace::lanes::{F64s, Isa, Mask, Stored, Vector};
 use crate::trace::{EightRays, Task};
@@ -24,6 +24,8 @@ impl Task for SeeLight<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
         let Self { integrator, light, met, shadows, factors } = self;
+        let (Light::Point { intensity, .. } | Light::Directional { intensity, .. }) = *light;
+        let brightest = intensity.max_component();
         for ((met, shadow), factor) in met.iter().zip(shadows).zip(factors) {
             shadow.lanes = 0;
             if met.met == 0 {
@@ -41,7 +43,8 @@ impl Task for SeeLight<'_> {
                 continue;
             }
             let [r, g, b] = weights(integrator, met, unit, cosine, facing);
-            let lit = facing & r.max(g).max(b).gt(F64s::zero());
+            let most = r.max(g).max(b) * F64s::splat(brightest) * F64s::load(&met.weight);
+            let lit = facing & most.ge(F64s::splat(LEAST_WEIGHT));
             shadow.lanes = lit.bits();
             (shadow.origin, shadow.direction) = (met.above, to_light.stored());
             shadow.end = F64s::<I>::splat(reach).stored();

@@ -2,9 +2,10 @@
 
 use super::light::EightSeen;
 use super::materials::EightMaterials;
+use super::optics::Standing;
 use super::whitted::{MOST_OFFSET, OFFSET, Whitted};
 use crate::geom::Vec3;
-use crate::trace::lanes::{F64s, Isa, Mask, Stored, Vector};
+use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
 use crate::trace::{EightHits, EightPoints, EightRays, Task, points};
 
 /// What eight rays meet, ready to be lit.
@@ -18,6 +19,8 @@ pub(super) struct EightMet {
     /// Where new rays start on that side, and how far off the surface that is.
     pub above: [Stored; 3],
     pub offset: Stored,
+    /// How much of the pixel the rays make at most.
+    pub weight: Stored,
     pub materials: EightMaterials,
 }
 
@@ -29,6 +32,8 @@ pub(super) struct Meet<'a> {
     pub hits: &'a [EightHits],
     /// Which rays come from the camera, if through glass.
     pub direct: &'a [u8],
+    /// Of every ray, if any light goes on.
+    pub standings: &'a [Standing],
     pub met: &'a mut [EightMet],
     pub seen: &'a mut [EightSeen],
 }
@@ -36,7 +41,7 @@ pub(super) struct Meet<'a> {
 impl Task for Meet<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { integrator, rays, hits, direct, met, seen } = self;
+        let Self { integrator, rays, hits, direct, standings, met, seen } = self;
         let (of_direct, of_others) = (integrator.nothing(true), integrator.nothing(false));
         for number in 0..rays.len() {
             let (rays, hits, met, seen) = (&rays[number], &hits[number], &mut met[number], &mut seen[number]);
@@ -55,6 +60,7 @@ impl Task for Meet<'_> {
             }
             met.materials = EightMaterials::of(hits, integrator.materials(), integrator.tracer());
             surface::<I>(integrator, rays, hits, met);
+            met.weight = weights(standings.get(number * LANES..));
             let there = Mask::<I>::from_bits(hits.met);
             let ambient = met.materials.pick::<I, 3>(&integrator.materials().ambients);
             for axis in 0..3 {
@@ -63,6 +69,16 @@ impl Task for Meet<'_> {
             seen.alpha = there.select(F64s::splat(1.0), alpha).stored();
         }
     }
+}
+
+/// How much of the pixel eight rays make at most, if they are not the camera's.
+#[inline(always)]
+fn weights(standings: Option<&[Standing]>) -> Stored {
+    let mut weights = Stored([1.0; LANES]);
+    for (weight, standing) in weights.0.iter_mut().zip(standings.unwrap_or_default()) {
+        *weight = standing.weight;
+    }
+    weights
 }
 
 /// As [`Whitted::met`], but for the material.

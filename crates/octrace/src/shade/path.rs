@@ -28,9 +28,13 @@ impl Whitted<'_> {
 
     /// What share of light comes through to the ray's origin from `t = reach`.
     fn unshadowed(&self, ray: &Ray, reach: f64, scratch: &mut Scratch, watch: &mut impl Watch) -> Rgb {
+        if let Some((_, hit)) = self.tracer().first_hit_of(self.opaque_bodies(), ray, reach, scratch) {
+            watch.meets(&hit, &self.tracer().surface_point(ray, &hit));
+            return Rgb::BLACK;
+        }
         let mut way = LightsWay::new(ray, reach);
         while let Some(RayTo { ray, end }) = way.rest {
-            let hit = self.tracer().first_body_hit(&ray, end, scratch);
+            let hit = self.tracer().first_hit_of(self.other_bodies(), &ray, end, scratch);
             if let Some((hit, point)) = self.pass(&mut way, hit) {
                 watch.meets(&hit, &point);
             }
@@ -55,7 +59,7 @@ impl<W: Watch> Path<'_, '_, W> {
         let point = self.integrator.tracer().surface_point(ray, &hit);
         self.watch.meets(&hit, &point);
         let met = self.integrator.met(ray, &hit, &point);
-        let mut seen = Seen { color: self.local(&met), alpha: 1.0 };
+        let mut seen = Seen { color: self.local(&met, standing.weight), alpha: 1.0 };
         let (refracted, reflected) = self.integrator.branches(ray, (body, hit), &met, &standing);
         if let Some(branch) = refracted {
             let behind = self.along(RayKind::Refracted, &branch, standing.of(&branch, true));
@@ -78,11 +82,11 @@ impl<W: Watch> Path<'_, '_, W> {
     }
 
     /// Ambient, diffuse and specular light at a point.
-    fn local(&mut self, met: &Met) -> Rgb {
+    fn local(&mut self, met: &Met, weight: f64) -> Rgb {
         let integrator = self.integrator;
         let mut sum = integrator.ambient(met);
         for (number, light) in integrator.lights().iter().enumerate() {
-            let Some(Lit { shadow, reach, intensity, factor }) = integrator.lit(met, light) else { continue };
+            let Some(Lit { shadow, reach, intensity, factor }) = integrator.lit(met, light, weight) else { continue };
             self.watch.sets_out(RayKind::Shadow { light: number }, &shadow, intensity * factor);
             let share = integrator.unshadowed(&shadow, reach, self.scratch, self.watch);
             self.watch.returns(share);

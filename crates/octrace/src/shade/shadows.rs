@@ -10,7 +10,7 @@ use super::meet::{EightMet, offset};
 use super::wave::Workshop;
 use super::whitted::{LEAST_WEIGHT, MAX_SHADOW_CROSSINGS, Whitted};
 use crate::model::Light;
-use crate::trace::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
+use crate::trace::lanes::{F64s, Isa, Mask, Stored, Vector};
 use crate::trace::{EightHits, EightPoints, EightRays, Task, points};
 
 /// The memory of a worker for shadow rays.
@@ -46,31 +46,37 @@ impl Shadows {
         self.lit.clear();
         self.lit.extend(self.rays.iter().map(|eight| eight.lanes));
         workshop.counts.shadow += self.lit.iter().map(|lanes| u64::from(lanes.count_ones())).sum::<u64>();
+        let Workshop { backend, tile, scratch, .. } = workshop;
+        self.blocked.resize(count, 0);
+        let (tracer, opaque) = (integrator.tracer(), integrator.opaque_bodies());
+        tracer.eights_met(opaque, &self.rays, *backend, tile, scratch, &mut self.blocked);
         let is_filtered = integrator.materials().transparent;
-        match is_filtered {
-            true => self.follow(integrator, light, workshop),
-            false => {
-                let Workshop { backend, tile, scratch, .. } = workshop;
-                self.blocked.resize(count, 0);
-                integrator.tracer().eights_met(&self.rays, *backend, tile, scratch, &mut self.blocked);
-            }
+        if is_filtered {
+            self.follow(integrator, light, workshop);
         }
         let arrives = if is_filtered { Arrives::Share(&self.shares) } else { Arrives::Unless(&self.blocked) };
         let (Light::Point { intensity, .. } | Light::Directional { intensity, .. }) = *light;
         workshop.backend.run(AddLight { intensity, lit: &self.lit, factors: &self.factors, arrives, seen });
     }
 
-    /// Follows rays past transparent things.
+    /// Follows rays past transparent things, but for those that are blocked.
     fn follow(&mut self, integrator: &Whitted, light: &Light, workshop: &mut Workshop) {
         let Workshop { backend, tile, scratch, .. } = workshop;
-        let Self { rays, hits, shares, .. } = self;
+        let Self { rays, hits, shares, blocked, .. } = self;
         hits.resize(rays.len(), EightHits::default());
         shares.clear();
-        shares.resize(rays.len(), [Stored([1.0; LANES]); 3]);
+        shares.extend(blocked.iter().map(|blocked| {
+            let share = std::array::from_fn(|lane| if blocked >> lane & 1 != 0 { 0.0 } else { 1.0 });
+            [Stored(share); 3]
+        }));
+        for (rays, blocked) in rays.iter_mut().zip(blocked) {
+            rays.lanes &= !*blocked;
+        }
         let is_bounded = matches!(light, Light::Point { .. });
         let mut crossings = 0;
         while rays.iter().any(|eight| eight.lanes != 0) {
-            integrator.tracer().eight_hits(rays, *backend, tile, scratch, hits);
+            let bodies = integrator.other_bodies();
+            integrator.tracer().eight_hits(bodies, rays, *backend, tile, scratch, hits);
             crossings += 1;
             let is_last = crossings == MAX_SHADOW_CROSSINGS;
             backend.run(Pass { integrator, is_bounded, is_last, hits, rays, shares });

@@ -110,11 +110,12 @@ impl Wave {
 
     /// What surfaces there are where the rays from `first` on end, and the light on them.
     fn light_up(&mut self, integrator: &Whitted, first: usize, workshop: &mut Workshop) {
-        let Self { rays, hits, seen, direct, met, shadows, .. } = self;
+        let Self { rays, hits, seen, direct, standings, met, shadows, .. } = self;
         met.resize(rays.len() - first, EightMet::default());
         seen.resize(rays.len(), EightSeen::default());
         let (rays, hits, direct, seen) = (&rays[first..], &hits[first..], &direct[first..], &mut seen[first..]);
-        workshop.backend.run(Meet { integrator, rays, hits, direct, met, seen });
+        let standings = standings.get(first * LANES..).unwrap_or_default();
+        workshop.backend.run(Meet { integrator, rays, hits, direct, standings, met, seen });
         for light in integrator.lights() {
             shadows.add_light(integrator, light, met, seen, workshop);
         }
@@ -162,7 +163,8 @@ impl Wave {
     fn trace(&mut self, integrator: &Whitted, first: usize, workshop: &mut Workshop) {
         let Workshop { backend, tile, scratch, .. } = workshop;
         self.hits.resize(self.rays.len(), EightHits::default());
-        integrator.tracer().eight_hits(&self.rays[first..], *backend, tile, scratch, &mut self.hits[first..]);
+        let (tracer, rays, hits) = (integrator.tracer(), &self.rays[first..], &mut self.hits[first..]);
+        tracer.eight_hits(0..tracer.bodies(), rays, *backend, tile, scratch, hits);
     }
 
     /// Brings the light back to where the rays came from.

@@ -12,9 +12,10 @@ use super::light::{Lighting, Seen};
 use super::materials::{Materials, ambient_of};
 use super::optics::{Branch, Media, Standing, mirror, refract};
 use crate::geom::{Hit, Ray, Vec3};
-use crate::model::{Light, Material, Rgb, Scene};
+use crate::model::{Bodies, Light, Material, Rgb, Scene};
 use crate::num::power_of_fraction;
 use crate::trace::{RayTo, Scratch, SurfacePoint, Tracer};
+use std::ops::Range;
 
 /// The integrator.
 #[derive(Debug)]
@@ -24,12 +25,14 @@ pub(crate) struct Whitted<'a> {
     materials: Materials,
     /// Index of refraction inside each body of the tracer.
     body_ior: Vec<f64>,
+    /// The first so many bodies let no light pass.
+    opaque: usize,
     max_bounces: u32,
     /// Of everything bounded.
     size: f64,
 }
 
-/// Rays that contribute less than this are not traced: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
+/// Rays that contribute less than this are not traced, those to lights too: less than half the darkest step of an 8-bit sRGB film (1 / 255 / 12.92).
 pub(super) const LEAST_WEIGHT: f64 = 1.0 / 8192.0;
 
 /// New rays start this far off their surface, relative to what rounding may put it off there ([`SurfacePoint::rounding`], in
@@ -88,16 +91,31 @@ impl LightsWay {
 }
 
 impl<'a> Whitted<'a> {
-    /// Light for the scene as the tracer knows it. `body_ior` is the index of refraction inside each body of the tracer,
-    /// as [`Scene::bodies`] says.
-    pub fn new(scene: &'a Scene, tracer: &'a Tracer, lighting: Lighting, body_ior: Vec<f64>, max_bounces: u32) -> Self {
+    /// Light for the scene as the tracer knows it. `bodies` are those of the tracer.
+    pub fn new(scene: &'a Scene, tracer: &'a Tracer, lighting: Lighting, bodies: &Bodies, max_bounces: u32) -> Self {
         let size = tracer.bounds().size().max_abs();
         let materials = Materials::new(scene, lighting.ambient);
-        Self { tracer, lighting, materials, body_ior, max_bounces, size }
+        let opaque = match bodies.opaque.len() == tracer.bodies() {
+            true => bodies.opaque.iter().take_while(|opaque| **opaque).count(),
+            // All of the scene is one body.
+            false => 0,
+        };
+        Self { tracer, lighting, materials, body_ior: bodies.ior.clone(), opaque, max_bounces, size }
     }
 
     pub(super) fn tracer(&self) -> &'a Tracer {
         self.tracer
+    }
+
+    /// The bodies that let no light pass. Whatever is in light's way elsewhere, those that are on the straight way to the
+    /// light keep it off.
+    pub(super) fn opaque_bodies(&self) -> Range<usize> {
+        0..self.opaque
+    }
+
+    /// All others.
+    pub(super) fn other_bodies(&self) -> Range<usize> {
+        self.opaque..self.tracer.bodies()
     }
 
     pub(super) fn lights(&self) -> &[Light] {
@@ -156,8 +174,9 @@ impl<'a> Whitted<'a> {
         ambient_of(met.material, self.lighting.ambient)
     }
 
-    /// What a light brings to a surface if nothing is in its way: diffuse and specular.
-    pub(super) fn lit(&self, met: &Met, light: &Light) -> Option<Lit> {
+    /// What a light brings to a surface if nothing is in its way: diffuse and specular. The surface makes so much of the pixel
+    /// at most: `weight`.
+    pub(super) fn lit(&self, met: &Met, light: &Light, weight: f64) -> Option<Lit> {
         let Met { material, toward_viewer, normal, above, .. } = met;
         let (to_light, reach, intensity) = match *light {
             Light::Point { position, intensity } => (position - *above, 1.0, intensity),
@@ -172,7 +191,8 @@ impl<'a> Whitted<'a> {
         let specular = material.ks * power(highlight, material);
         let factor = material.color * (material.kd * cosine) + Rgb::gray(specular);
         let shadow = Ray { origin: *above, direction: to_light };
-        (factor.max_component() > 0.0).then_some(Lit { shadow, reach, intensity, factor })
+        let most = factor.max_component() * intensity.max_component() * weight;
+        (most >= LEAST_WEIGHT).then_some(Lit { shadow, reach, intensity, factor })
     }
 
     /// The refracted and the reflected ray, where there are such.

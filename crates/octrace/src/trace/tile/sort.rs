@@ -3,6 +3,7 @@
 use super::dispatch::Task;
 use super::eight::EightRays;
 use super::lanes::{F64s, Isa, LANES, Vector};
+use crate::geom::Bounds;
 use crate::trace::prepared::Usual;
 
 /// The rays of a stream, sorted. A ray's number is that of its eight, times the lanes, plus its lane.
@@ -30,6 +31,8 @@ const TOGETHER: u32 = 4;
 pub(super) struct Sort<'a> {
     /// Which rays can be traced together; `None` if none can.
     pub usual: Option<Usual>,
+    /// Rays that do not come here meet nothing.
+    pub room: Option<Bounds>,
     pub rays: &'a [EightRays],
     pub sorted: &'a mut Sorted,
 }
@@ -37,7 +40,7 @@ pub(super) struct Sort<'a> {
 impl Task for Sort<'_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { usual, rays, sorted } = self;
+        let Self { usual, room, rays, sorted } = self;
         for (number, eight) in (0_u32..).zip(rays) {
             let usual = match &usual {
                 Some(usual) if eight.lanes != 0 => usual_lanes::<I>(usual, eight) & eight.lanes,
@@ -52,7 +55,10 @@ impl Task for Sort<'_> {
             // Not by a closure: those may be compiled by themselves.
             let [x, y, z] = &eight.direction;
             let signs = [F64s::<I>::load(x).signs(), F64s::<I>::load(y).signs(), F64s::<I>::load(z).signs()];
-            let mut left = usual;
+            let mut left = match &room {
+                Some(room) if usual != 0 => usual & coming::<I>(room, eight),
+                _ => usual,
+            };
             while left != 0 {
                 let lane = left.trailing_zeros();
                 // All lanes that have the same signs.
@@ -76,6 +82,23 @@ impl Task for Sort<'_> {
             }
         }
     }
+}
+
+/// The rays that come through a box.
+#[inline(always)]
+fn coming<I: Isa>(room: &Bounds, rays: &EightRays) -> u8 {
+    let (mut t_in, mut t_out) = (F64s::<I>::zero(), F64s::load(&rays.end));
+    for axis in 0..3 {
+        let inverse = F64s::splat(1.0) / F64s::<I>::load(&rays.direction[axis]);
+        let origin = F64s::load(&rays.origin[axis]);
+        let low = (F64s::splat(room.min[axis]) - origin) * inverse;
+        let high = (F64s::splat(room.max[axis]) - origin) * inverse;
+        let forward = inverse.gt(F64s::zero());
+        // A ray in one of the planes has no number there, and no bound.
+        t_in = t_in.max(forward.select(low, high));
+        t_out = t_out.min(forward.select(high, low));
+    }
+    t_in.le(t_out).bits()
 }
 
 /// As [`Usual::holds`], of rays that have a stretch to be followed along.

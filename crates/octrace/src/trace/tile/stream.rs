@@ -11,9 +11,11 @@ use super::packet::Own;
 use super::sort::{Alike, Sort};
 use super::walk::{Lead, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
-use crate::geom::Ray;
+use crate::compile::Constant;
+use crate::geom::{Bounds, Ray};
 use crate::trace::prepared::Usual;
 use crate::trace::{Scratch, Tracer};
+use std::ops::Range;
 
 /// A ray, and up to which parameter it is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +24,13 @@ pub struct RayTo {
     pub ray: Ray,
     /// Crossings beyond this parameter do not count.
     pub end: f64,
+}
+
+/// Rays, and the bodies that they may meet.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
+    bodies: &'a Range<usize>,
+    rays: &'a [EightRays],
 }
 
 /// What is to be found out.
@@ -63,7 +72,7 @@ impl Tracer {
         let mut found = std::mem::take(&mut tile.found);
         by_eights(rays, &mut eights);
         found.resize(eights.len(), EightHits::default());
-        self.eight_hits(&eights, backend, tile, scratch, &mut found);
+        self.eight_hits(0..self.bodies.len(), &eights, backend, tile, scratch, &mut found);
         for index in 0..rays.len() {
             hits[index] = found[index / LANES].hit(index % LANES);
         }
@@ -87,16 +96,17 @@ impl Tracer {
         let mut met = std::mem::take(&mut tile.met);
         by_eights(rays, &mut eights);
         met.resize(eights.len(), 0);
-        self.eights_met(&eights, backend, tile, scratch, &mut met);
+        self.eights_met(0..self.bodies.len(), &eights, backend, tile, scratch, &mut met);
         for index in 0..rays.len() {
             blocked[index] = met[index / LANES] >> (index % LANES) & 1 != 0;
         }
         (tile.eights, tile.met) = (eights, met);
     }
 
-    /// As [`first_hits_into`](Self::first_hits_into), by eights.
+    /// As [`first_hits_into`](Self::first_hits_into), by eights, with some bodies.
     pub(crate) fn eight_hits(
         &self,
+        bodies: Range<usize>,
         rays: &[EightRays],
         backend: Backend,
         tile: &mut RayTile,
@@ -106,12 +116,13 @@ impl Tracer {
         for hits in &mut *hits {
             hits.forget();
         }
-        self.stream(rays, backend, tile, scratch, &mut Answers::Hits(hits));
+        self.stream(Asked { bodies: &bodies, rays }, backend, tile, scratch, &mut Answers::Hits(hits));
     }
 
-    /// Which rays meet anything: a bit for each lane.
+    /// Which rays meet any of some bodies: a bit for each lane.
     pub(crate) fn eights_met(
         &self,
+        bodies: Range<usize>,
         rays: &[EightRays],
         backend: Backend,
         tile: &mut RayTile,
@@ -119,24 +130,22 @@ impl Tracer {
         met: &mut [u8],
     ) {
         met.fill(0);
-        self.stream(rays, backend, tile, scratch, &mut Answers::Met(met));
+        self.stream(Asked { bodies: &bodies, rays }, backend, tile, scratch, &mut Answers::Met(met));
     }
 
-    fn stream(
-        &self,
-        rays: &[EightRays],
-        backend: Backend,
-        tile: &mut RayTile,
-        scratch: &mut Scratch,
-        answers: &mut Answers,
-    ) {
+    fn stream(&self, asked: Asked, backend: Backend, tile: &mut RayTile, scratch: &mut Scratch, answers: &mut Answers) {
         let mut sorted = std::mem::take(&mut tile.sorted);
-        let together = self.bodies.iter().all(|body| body.is_walked_by_default());
+        let Asked { bodies, rays } = asked;
+        if bodies.is_empty() {
+            return;
+        }
+        let together = self.bodies[bodies.clone()].iter().all(|body| body.is_walked_by_default());
         let usual = together.then(|| Usual::new(&self.bounds()));
-        backend.run(Sort { usual, rays, sorted: &mut sorted });
+        let room = if bodies.len() < self.bodies.len() { self.room_of(bodies) } else { None };
+        backend.run(Sort { usual, room, rays, sorted: &mut sorted });
         for number in sorted.alone.drain(..) {
             let (eight, lane) = (number as usize / LANES, number as usize % LANES);
-            self.answer_alone(rays, (eight, lane), scratch, answers);
+            self.answer_alone(asked, (eight, lane), scratch, answers);
         }
         for (signs, Alike { together, loose }) in sorted.alike.iter_mut().enumerate() {
             let (mut left, mut loose_left) = (&together[..], &loose[..]);
@@ -144,7 +153,7 @@ impl Tracer {
                 let (now, loose_now);
                 (now, left) = left.split_at(left.len().min(PACKETS));
                 (loose_now, loose_left) = loose_left.split_at(loose_left.len().min((PACKETS - now.len()) * LANES));
-                let packed = Packed { rays, together: now, loose: loose_now };
+                let packed = Packed { asked, together: now, loose: loose_now };
                 tile.load_loose(&packed);
                 backend.run(TraceStream { tracer: self, signs, packed, tile, scratch, answers });
                 self.answer_others(&packed, tile, scratch, answers);
@@ -155,13 +164,21 @@ impl Tracer {
         tile.sorted = sorted;
     }
 
+    /// A box that holds some bodies, if they are bounded: theirs are the roots of their octrees.
+    fn room_of(&self, bodies: &Range<usize>) -> Option<Bounds> {
+        self.bodies[bodies.clone()].iter().try_fold(Bounds::EMPTY, |room, body| {
+            let is_bounded = body.program.outer == Constant::Everywhere(false);
+            is_bounded.then(|| body.octree().map_or(room, |octree| room.union(octree.bounds())))
+        })
+    }
+
     /// What those rays met that were loose, or given up.
     fn answer_others(&self, packed: &Packed, tile: &RayTile, scratch: &mut Scratch, answers: &mut Answers) {
-        let Packed { rays, together, loose } = *packed;
+        let Packed { asked, together, loose } = *packed;
         for (&(number, lanes), packet) in together.iter().zip(&tile.packets) {
             let mut left = packet.given_up & lanes;
             while left != 0 {
-                self.answer_alone(rays, (number as usize, left.trailing_zeros() as usize), scratch, answers);
+                self.answer_alone(asked, (number as usize, left.trailing_zeros() as usize), scratch, answers);
                 left &= left - 1;
             }
         }
@@ -170,7 +187,7 @@ impl Tracer {
             let (number, lane) = (number as usize / LANES, number as usize % LANES);
             match answers {
                 _ if tile.packets[packet].given_up >> from & 1 != 0 => {
-                    self.answer_alone(rays, (number, lane), scratch, answers);
+                    self.answer_alone(asked, (number, lane), scratch, answers);
                 }
                 Answers::Hits(hits) => hits[number].set(lane, tile.hit(self, packet, from)),
                 Answers::Met(met) => met[number] |= (tile.packets[packet].met >> from & 1) << lane,
@@ -182,13 +199,13 @@ impl Tracer {
     #[cold]
     fn answer_alone(
         &self,
-        rays: &[EightRays],
+        Asked { bodies, rays }: Asked,
         (number, lane): (usize, usize),
         scratch: &mut Scratch,
         answers: &mut Answers,
     ) {
         let eight = &rays[number];
-        let hit = self.first_body_hit(&eight.ray(lane), eight.end.0[lane], scratch);
+        let hit = self.first_hit_of(bodies.clone(), &eight.ray(lane), eight.end.0[lane], scratch);
         match answers {
             Answers::Hits(hits) => hits[number].set(lane, hit),
             Answers::Met(met) => met[number] |= u8::from(hit.is_some()) << lane,
@@ -199,7 +216,7 @@ impl Tracer {
 /// Rays whose directions have the same signs, as many as go into a tile: those that are together first.
 #[derive(Clone, Copy)]
 struct Packed<'a> {
-    rays: &'a [EightRays],
+    asked: Asked<'a>,
     together: &'a [(u32, u8)],
     loose: &'a [u32],
 }
@@ -215,7 +232,7 @@ impl RayTile {
             for lane in 0..LANES {
                 // Lanes without a ray of their own shall hold nothing unusual either.
                 let number = loose[lane.min(loose.len() - 1)] as usize;
-                packet.follow_one(lane, &packed.rays[number / LANES], number % LANES);
+                packet.follow_one(lane, &packed.asked.rays[number / LANES], number % LANES);
             }
             packet.wanted = u8::MAX >> (LANES - loose.len());
         }
@@ -235,7 +252,14 @@ struct TraceStream<'a, 'b, 'c> {
 impl Task for TraceStream<'_, '_, '_> {
     #[inline(always)]
     fn run<I: Isa>(self) {
-        let Self { tracer, signs, packed: Packed { rays, together, .. }, tile, scratch, answers } = self;
+        let Self {
+            tracer,
+            signs,
+            packed: Packed { asked: Asked { bodies, rays }, together, .. },
+            tile,
+            scratch,
+            answers,
+        } = self;
         tile.from_eye = false;
         for (packet, &(number, lanes)) in tile.packets.iter_mut().zip(together) {
             packet.follow::<I>(&rays[number as usize], lanes);
@@ -243,7 +267,7 @@ impl Task for TraceStream<'_, '_, '_> {
         for packet in tile.packets.iter_mut().filter(|packet| packet.wanted != 0) {
             packet.prepare::<I>();
         }
-        follow::<I>(tracer, signs, tile, scratch);
+        follow::<I>(tracer, bodies, signs, tile, scratch);
         for (packet, &(number, lanes)) in tile.packets.iter().zip(together) {
             let number = number as usize;
             match answers {
@@ -254,13 +278,13 @@ impl Task for TraceStream<'_, '_, '_> {
     }
 }
 
-/// Follows the rays of a tile through all bodies.
+/// Follows the rays of a tile through the bodies.
 #[inline(always)]
-fn follow<I: Isa>(tracer: &Tracer, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
+fn follow<I: Isa>(tracer: &Tracer, bodies: &Range<usize>, signs: usize, tile: &mut RayTile, scratch: &mut Scratch) {
     tile.bundles.forget();
     tile.meshes.forget();
-    for (number, body) in tracer.bodies.iter().enumerate() {
-        let Some(octree) = body.octree() else { continue };
+    for number in bodies.clone() {
+        let Some(octree) = tracer.bodies[number].octree() else { continue };
         for packet in &mut tile.packets {
             packet.open = packet.wanted & !packet.given_up;
             packet.started_there = 0;
