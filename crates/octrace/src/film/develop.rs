@@ -3,10 +3,7 @@
 use super::tile::TileRows;
 use crate::shade::EightSeen;
 use crate::trace::lanes::{F64s, Isa, LANES};
-use crate::trace::{PACKET_PX, TILE_PX, Task};
-
-/// Packets along x.
-const ACROSS: usize = TILE_PX / PACKET_PX.0;
+use crate::trace::{PACKET_PX, Task, corner_of};
 
 /// Writes the pixels of a tile, row by row.
 pub(super) struct Develop<'a> {
@@ -22,7 +19,7 @@ impl Task for Develop<'_> {
     fn run<I: Isa>(self) {
         let Self { seen, share, mut rows } = self;
         for (number, seen) in seen.iter().enumerate() {
-            let (left, top) = (number % ACROSS * PACKET_PX.0, number / ACROSS * PACKET_PX.1);
+            let (left, top) = corner_of(number);
             let [r, g, b] = &seen.color;
             let mut channels = [[0.0_f32; LANES]; 4];
             for (channel, v) in channels.iter_mut().zip([r, g, b, &seen.alpha]) {

@@ -5,25 +5,19 @@
 //! ([`super::prune`]).
 
 use super::lanes::{F64s, Isa, LANES, Stored, Vector};
-use super::{ACROSS, DOWN, PACKET_PX, TILE_PX};
+use super::layout::{BUNDLE_COLUMNS, BUNDLE_PX, COLUMNS, PACKET_PX, ROWS, packets_in};
 use crate::geom::Vec3;
 use crate::model::CameraRays;
 use crate::octree::Octree;
 
 /// Borders of rows come first, then those of columns.
-const FIRST_COLUMN: usize = DOWN + 1;
+const FIRST_COLUMN: usize = ROWS + 1;
 /// Borders between packets: of rows, of columns, and some to fill up the lanes.
 const BORDERS: usize = 2 * LANES;
-const _: () = assert!(FIRST_COLUMN + ACROSS < BORDERS);
+const _: () = assert!(FIRST_COLUMN + COLUMNS < BORDERS);
 
 /// The outermost borders: the first and the last row's, the first and the last column's.
-const OUTERMOST: [usize; 4] = [0, DOWN, FIRST_COLUMN, FIRST_COLUMN + ACROSS];
-
-/// Columns and rows of parts.
-const PARTS_ACROSS: usize = 2;
-const PARTS_DOWN: usize = LANES / PARTS_ACROSS;
-/// Pixels of a part along x, and along y.
-const PART_PX: (usize, usize) = (TILE_PX / PARTS_ACROSS, TILE_PX / PARTS_DOWN);
+const OUTERMOST: [usize; 4] = [0, ROWS, FIRST_COLUMN, FIRST_COLUMN + COLUMNS];
 
 /// The beam of one tile.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,47 +51,13 @@ pub(super) struct Reached {
     heights: [f64; 4],
 }
 
-/// The packets that belong to both: a bit for each row, and one for each column.
-#[inline(always)]
-fn packets_of(rows: u32, columns: u32) -> u32 {
-    // Every bit of the rows to a nibble of its own.
-    let spread = (rows | rows << 12) & 0x000F_000F;
-    let spread = (spread | spread << 6) & 0x0303_0303;
-    let spread = (spread | spread << 3) & 0x1111_1111;
-    spread * columns
-}
-
-/// The packets of a part.
-const fn part_packets(part: usize) -> u32 {
-    let (across, down) = (PART_PX.0 / PACKET_PX.0, PART_PX.1 / PACKET_PX.1);
-    let mut packets = 0;
-    let mut row = part / PARTS_ACROSS * down;
-    let last_row = row + down;
-    while row < last_row {
-        packets |= ((1 << across) - 1) << (row * ACROSS + part % PARTS_ACROSS * across);
-        row += 1;
-    }
-    packets
-}
-
-/// The packets of each part.
-pub(super) const PART_PACKETS: [u32; LANES] = {
-    let mut packets = [0; LANES];
-    let mut part = 0;
-    while part < LANES {
-        packets[part] = part_packets(part);
-        part += 1;
-    }
-    packets
-};
-
 impl Beam {
     /// The beam of the tile whose upper left corner is at `(left, top)`.
     pub fn new(camera: &CameraRays, left: f64, top: f64) -> Self {
         let CameraRays { eye, forward, right, down, orthographic: parallel, .. } = *camera;
         let mut beam = Self { eye, parallel, forward, ..Self::default() };
         let half = |px: usize| px as f64 / 2.0;
-        beam.half_part = [right * half(PART_PX.0), down * half(PART_PX.1)];
+        beam.half_part = [right * half(BUNDLE_PX.0), down * half(BUNDLE_PX.1)];
         // A plane through all of a row, or of a column, of the film.
         let row = |y: f64| match parallel {
             true => (forward.cross(right), y * down.dot(forward.cross(right))),
@@ -113,7 +73,7 @@ impl Beam {
         };
         let border = |i: usize| match i {
             0..FIRST_COLUMN => turn(row(top + (i * PACKET_PX.1) as f64 - camera.center.1), down),
-            _ => turn(column(left + ((i - FIRST_COLUMN).min(ACROSS) * PACKET_PX.0) as f64 - camera.center.0), right),
+            _ => turn(column(left + ((i - FIRST_COLUMN).min(COLUMNS) * PACKET_PX.0) as f64 - camera.center.0), right),
         };
         let borders: [(Vec3, f64); BORDERS] = std::array::from_fn(border);
         for (i, (normal, offset)) in borders.into_iter().enumerate() {
@@ -129,8 +89,8 @@ impl Beam {
             *heights = Stored(std::array::from_fn(|octant| normal.dot(Octree::child_center(Vec3::ZERO, 1.0, octant))));
         }
         for part in 0..LANES {
-            let x = left + ((part % PARTS_ACROSS) as f64 + 0.5) * PART_PX.0 as f64 - camera.center.0;
-            let y = top + ((part / PARTS_ACROSS) as f64 + 0.5) * PART_PX.1 as f64 - camera.center.1;
+            let x = left + ((part % BUNDLE_COLUMNS) as f64 + 0.5) * BUNDLE_PX.0 as f64 - camera.center.0;
+            let y = top + ((part / BUNDLE_COLUMNS) as f64 + 0.5) * BUNDLE_PX.1 as f64 - camera.center.1;
             let offset = right * x + down * y;
             let (origin, direction) = if parallel { (eye + offset, forward) } else { (eye, forward + offset) };
             for axis in 0..3 {
@@ -151,10 +111,10 @@ impl Beam {
         let above = u32::from(above_rows) | u32::from(above_columns) << LANES;
         let below = u32::from(below_rows) | u32::from(below_columns) << LANES;
         let between = above & below >> 1;
-        let rows = between & ((1 << DOWN) - 1);
-        let columns = between >> FIRST_COLUMN & ((1 << ACROSS) - 1);
+        let rows = between & ((1 << ROWS) - 1);
+        let columns = between >> FIRST_COLUMN & ((1 << COLUMNS) - 1);
         Reached {
-            packets: packets_of(rows, columns),
+            packets: packets_in(rows, columns),
             heights: OUTERMOST.map(|border| heights[border / LANES].0[border % LANES]),
         }
     }
@@ -205,27 +165,5 @@ impl Beam {
         let middle = (center - self.eye).dot(self.forward);
         let reach = half * self.forward.abs().dot(Vec3::splat(1.0));
         ((middle - reach).max(0.0), middle + reach)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn packets_are_counted_row_by_row() {
-        assert_eq!(packets_of(0b1, 0b1111), 0xF);
-        assert_eq!(packets_of(0b1000_0001, 0b0010), 0x2000_0002);
-        assert_eq!(packets_of(0xFF, 0xF), u32::MAX);
-    }
-
-    #[test]
-    fn every_packet_belongs_to_one_part() {
-        let all = PART_PACKETS.iter().fold(0, |all, packets| {
-            assert_eq!(all & packets, 0);
-            all | packets
-        });
-        assert_eq!(all, u32::MAX);
-        assert_eq!(PART_PACKETS[0], 0x33);
     }
 }

@@ -4,18 +4,18 @@
 //! through a cell, and the parallelepipeds in which they are then, for which programs are pruned as for the parts of a beam
 //! ([`super::prune`]). That says something of cells that are not much smaller than the bundle is wide.
 
-use super::PACKETS;
 use super::kernels::Cube;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
+use super::layout::{PACKETS, TOGETHER};
 use super::packet::Packet;
 use super::prune::{Boxes, Parts};
 use crate::geom::Vec3;
 
-/// Packets of a bundle.
-const TOGETHER: usize = PACKETS / LANES;
+/// Programs are pruned for a bundle in cells with at least this part of its width as half edge.
+pub(super) const LEAST_PRUNED: f64 = 0.25;
 
-/// A bundle is used in cells with at least this part of its width as half edge.
-const LEAST_CELL: f64 = 0.25;
+/// A bundle is led through the octree as a whole where octants have at least this part of its width as half edge.
+pub(super) const LEAST_LED: f64 = 0.5;
 
 /// The least and the greatest of what rays have, a lane for each bundle.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,27 +58,6 @@ pub(super) struct Passage<I: Isa> {
     pub bundles: u8,
 }
 
-/// All packets of some bundles.
-#[inline(always)]
-pub(super) fn packets_of(bundles: u8) -> u32 {
-    // Every bit to a nibble of its own, and from there to all of it.
-    let spread = u32::from(bundles);
-    let spread = (spread | spread << 12) & 0x000F_000F;
-    let spread = (spread | spread << 6) & 0x0303_0303;
-    let spread = (spread | spread << 3) & 0x1111_1111;
-    spread * 0xF
-}
-
-/// The bundles that some packets belong to.
-#[inline(always)]
-pub(super) fn bundles_of(packets: u32) -> u8 {
-    let any = packets | packets >> 2;
-    let any = (any | any >> 1) & 0x1111_1111;
-    let any = (any | any >> 3) & 0x0303_0303;
-    let any = (any | any >> 6) & 0x000F_000F;
-    (any | any >> 12) as u8
-}
-
 impl Bundles {
     /// There are other rays now.
     pub fn forget(&mut self) {
@@ -108,7 +87,11 @@ impl Bundles {
         for axis in 0..3 {
             self.origin[axis] = Range::of::<I>(packets, |packet| &packet.origin[axis]);
             self.direction[axis] = Range::of::<I>(packets, |packet| &packet.direction[axis]);
-            self.inverse[axis] = Range::of::<I>(packets, |packet| &packet.inverse[axis]);
+            // Directions have the same sign; dividing keeps their order.
+            let Range { low, high } = &self.direction[axis];
+            let one = F64s::<I>::splat(1.0);
+            self.inverse[axis] =
+                Range { low: (one / F64s::load(high)).stored(), high: (one / F64s::load(low)).stored() };
         }
         self.end = Range::of::<I>(packets, |packet| &packet.t).high;
     }
@@ -120,17 +103,18 @@ impl Bundles {
         for axis in 0..3 {
             let extent = |range: &Range| F64s::<I>::load(&range.high) - F64s::load(&range.low);
             width = width.max(extent(&self.origin[axis]) + extent(&self.direction[axis]) * t_out.max(F64s::zero()));
-            let Range { low, high } = &self.inverse[axis];
-            usual = usual & F64s::load(low).is_finite() & F64s::load(high).is_finite();
+            // Nor are directions of bundles without rays.
+            for Range { low, high } in [&self.direction[axis], &self.inverse[axis]] {
+                usual = usual & F64s::load(low).is_finite() & F64s::load(high).is_finite();
+            }
         }
-        // Bundles without rays reach from infinity to infinity.
         self.width = (usual & width.is_finite()).select(width, F64s::infinity()).stored();
     }
 
-    /// The bundles that are to be used in cells with that half edge.
+    /// The bundles of which at most this part of the width is at most that wide.
     #[inline(always)]
-    pub fn narrow<I: Isa>(&self, half: f64) -> u8 {
-        (F64s::<I>::load(&self.width) * F64s::splat(LEAST_CELL)).le(F64s::splat(half)).bits()
+    pub fn narrow<I: Isa>(&self, part: f64, half: f64) -> u8 {
+        (F64s::<I>::load(&self.width) * F64s::splat(part)).le(F64s::splat(half)).bits()
     }
 
     /// Bounds of the parameters at which the bundles, seen from `from`, pass a plane across an axis.
@@ -162,6 +146,33 @@ impl Bundles {
         Passage { t_in, t_out, bundles: t_in.le(t_out).bits() }
     }
 
+    /// The bundles, seen from `from`, that come through each octant of a cube, numbered from the nearest on.
+    #[inline(always)]
+    pub fn octants_met<I: Isa>(&self, signs: usize, Cube { center, half }: Cube, from: Vec3) -> [u8; LANES] {
+        let whole = (F64s::<I>::zero(), F64s::<I>::infinity());
+        // Where bundles enter and leave the near half and the far half, across each axis.
+        let mut halves = [[whole; 2]; 3];
+        for axis in 0..3 {
+            let negative = signs >> axis & 1 != 0;
+            let (low, high) = (center[axis] - half, center[axis] + half);
+            let (near, far) = if negative { (high, low) } else { (low, high) };
+            let (middle_first, middle_last) = self.passes::<I>(axis, negative, center[axis], from);
+            halves[axis] = [
+                (self.passes::<I>(axis, negative, near, from).0, middle_last),
+                (middle_first, self.passes::<I>(axis, negative, far, from).1),
+            ];
+        }
+        let end = F64s::load(&self.end);
+        let mut bundles = [0; LANES];
+        for order in 0..LANES {
+            let (x, y, z) = (halves[0][order & 1], halves[1][order >> 1 & 1], halves[2][order >> 2]);
+            let t_in = F64s::zero().max(x.0).max(y.0).max(z.0);
+            let t_out = end.min(x.1).min(y.1).min(z.1);
+            bundles[order] = t_in.le(t_out).bits();
+        }
+        bundles
+    }
+
     /// Where the bundles' rays are on that passage, seen from `from`.
     #[inline(always)]
     pub fn parts<I: Isa>(&self, passage: &Passage<I>, margin: f64, from: Vec3) -> Parts<I, Boxes<I>> {
@@ -189,40 +200,13 @@ impl Range {
         let mut range = Self::default();
         for (bundle, packets) in packets.chunks_exact(TOGETHER).enumerate() {
             let (mut low, mut high) = (F64s::<I>::infinity(), -F64s::<I>::infinity());
-            for packet in packets {
+            for packet in packets.iter().filter(|packet| packet.wanted != 0) {
                 let (here, v) = (Mask::from_bits(packet.wanted & !packet.given_up), F64s::load(what(packet)));
                 low = low.min(here.select(v, low));
                 high = high.max(here.select(v, high));
             }
-            let (low, high) = (low.stored().0, high.stored().0);
-            let least = |a: f64, b: f64| if b < a { b } else { a };
-            let greatest = |a: f64, b: f64| if b > a { b } else { a };
-            range.low.0[bundle] = least(
-                least(least(low[0], low[1]), least(low[2], low[3])),
-                least(least(low[4], low[5]), least(low[6], low[7])),
-            );
-            range.high.0[bundle] = greatest(
-                greatest(greatest(high[0], high[1]), greatest(high[2], high[3])),
-                greatest(greatest(high[4], high[5]), greatest(high[6], high[7])),
-            );
+            (range.low.0[bundle], range.high.0[bundle]) = (low.least(), high.greatest());
         }
         range
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn packets_and_bundles_belong_together() {
-        assert_eq!(packets_of(0b1000_0001), 0xF000_000F);
-        assert_eq!(bundles_of(0x8000_0400), 0b1000_0100);
-        for bundles in 0..=u8::MAX {
-            assert_eq!(bundles_of(packets_of(bundles)), bundles);
-            for packet in 0..4 {
-                assert_eq!(bundles_of(packets_of(bundles) & 0x1111_1111 << packet), bundles);
-            }
-        }
     }
 }

@@ -193,13 +193,18 @@ fn solved<I: Isa, N: Number<I>, K: Kind>(o: Vector<N>, d: Vector<F64s<I>>) -> (C
     let m = o.cross(d);
     let moment = plus_z::<F64s<I>, K>(m.z * m.z, m.x * m.x + m.y * m.y);
     let discriminant = F64s::splat(-c0) * a - moment;
+    let met = discriminant.gt(F64s::zero());
+    if !met.any() && !matches!(K::KIND, QuadricKind::Cone) {
+        // As below.
+        let missed = discriminant.lt(F64s::zero()) & a.gt(F64s::zero()) & c.gt(F64s::zero());
+        return (Crossed::nowhere(), missed);
+    }
     let root = discriminant.sqrt();
     let q = b.gt(F64s::zero()).select(-b - root, root - b);
     let (t0, t1) = (q / a, c / q);
     let ordered = t0.le(t1);
     let first = ordered.select(t0, t1) + F64s::zero();
     let second = ordered.select(t1, t0) + F64s::zero();
-    let met = discriminant.gt(F64s::zero());
     // Lines that miss the surface, and those of them that are inside.
     let (missed, inside) = match K::KIND {
         QuadricKind::Cone => {

@@ -4,9 +4,10 @@
 use super::crossing::{Rays, crossed_by, point};
 use super::dispatch::Task;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
+use super::layout::{PACKET_PX, PACKETS, corner_of, lane_of};
 use super::mesh::face_of;
 use super::packet::{Common, Origins, Own, Packet};
-use super::{ACROSS, PACKET_PX, PACKETS, RayTile, TILE_PX, Tiles, lane_of};
+use super::{RayTile, TILE_PX, Tiles};
 use crate::compile::{Catalog, Use, Word};
 use crate::geom::Vec3;
 use crate::model::CameraRays;
@@ -269,7 +270,8 @@ fn normals(catalog: &Catalog, facets: &[u32; LANES], lanes: u8) -> [Stored; 3] {
 #[inline(always)]
 fn store<I: Isa>(number: usize, value: F64s<I>, pixels: &mut Brightness) {
     let value = value.stored().0.map(|v| v as f32);
-    let at = number / ACROSS * PACKET_PX.1 * TILE_PX + number % ACROSS * PACKET_PX.0;
+    let (left, top) = corner_of(number);
+    let at = top * TILE_PX + left;
     pixels.0[at..at + PACKET_PX.0].copy_from_slice(&value[..PACKET_PX.0]);
     pixels.0[at + TILE_PX..at + TILE_PX + PACKET_PX.0].copy_from_slice(&value[PACKET_PX.0..]);
 }

@@ -1,9 +1,9 @@
 //! Leaves: their programs are pruned for the parts of a tile's beam and cut in depth, then evaluated.
 
-use super::beam::PART_PACKETS;
-use super::bundles::{self, bundles_of};
+use super::bundles::LEAST_PRUNED;
 use super::kernels::{Cube, GiveUp, OneByOne, Several, Single, bits_of};
 use super::lanes::Isa;
+use super::layout::{bundles_of, packets_of};
 use super::mesh::Meshed;
 use super::packet::Origins;
 use super::program::{Kinds, is_short};
@@ -60,11 +60,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         while count > 0 {
             count -= 1;
             let Slab { words, near, far, parts, cuts } = self.slabs[count];
-            let mut open = 0;
-            for (part, part_packets) in PART_PACKETS.iter().enumerate() {
-                open |= u8::from(packets & self.open & part_packets != 0) << part;
-            }
-            let parts = parts & open;
+            let parts = parts & bundles_of(packets & self.open);
             if parts == 0 {
                 continue;
             }
@@ -78,7 +74,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             let undecided = parts & !(settled | leaked);
             let can_be_cut = cuts < MAX_CUTS && self.beam.is_deep(near, far);
             let crowded = if can_be_cut { self.known.crowded(words.words(), undecided) } else { 0 };
-            self.evaluate_pruned(words.words(), undecided & !crowded, packets, packets_of, cube, (near, far));
+            self.evaluate_pruned(words.words(), undecided & !crowded, packets, cube, (near, far));
             if crowded != 0 {
                 let words = self.known.pruned(words.words(), crowded);
                 let middle = 0.5 * (near + far);
@@ -101,7 +97,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             0..STREAM_PRUNED_FOR => 0,
             _ => {
                 self.bundles.know::<I>(self.packets, signs);
-                bundles::packets_of(self.bundles.narrow::<I>(cube.half))
+                packets_of(self.bundles.narrow::<I>(LEAST_PRUNED, cube.half))
             }
         };
         if packets & !narrow != 0 {
@@ -118,22 +114,14 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let (always, never) = self.known.decided();
         let (settled, leaked) = if self.scenery.wanted { (never, always) } else { (always, never) };
         if leaked & !settled & here != 0 {
-            self.give_up_in(packets & bundles::packets_of(leaked & here), cube, everywhere);
+            self.give_up_in(packets & packets_of(leaked & here), cube, everywhere);
         }
-        self.evaluate_pruned(words, here & !(settled | leaked), packets, bundles::packets_of, cube, everywhere);
+        self.evaluate_pruned(words, here & !(settled | leaked), packets, cube, everywhere);
     }
 
-    /// Evaluates what is left of a leaf's program in some parts, of which `packets_of` tells the packets.
+    /// Evaluates what is left of a leaf's program in some parts.
     #[inline(always)]
-    fn evaluate_pruned(
-        &mut self,
-        words: &[u32],
-        parts: u8,
-        packets: u32,
-        packets_of: impl Fn(u8) -> u32,
-        cube: Cube,
-        depths: (f64, f64),
-    ) {
+    fn evaluate_pruned(&mut self, words: &[u32], parts: u8, packets: u32, cube: Cube, depths: (f64, f64)) {
         let mut left = parts;
         while left != 0 {
             let alike = self.known.alike(words, left);
@@ -167,14 +155,4 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         I::call(GiveUp { walk: self, packets, cube, depths });
         self.close(packets);
     }
-}
-
-/// All packets of some parts.
-#[inline(always)]
-pub(super) fn packets_of(parts: u8) -> u32 {
-    let mut packets = 0;
-    for (part, part_packets) in PART_PACKETS.iter().enumerate() {
-        packets |= if parts >> part & 1 != 0 { *part_packets } else { 0 };
-    }
-    packets
 }

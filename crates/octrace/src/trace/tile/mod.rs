@@ -13,6 +13,7 @@ mod eight;
 mod kernels;
 mod lambert;
 pub(crate) mod lanes;
+mod layout;
 mod leaf;
 mod mesh;
 mod outer;
@@ -28,6 +29,7 @@ pub use dispatch::Backend;
 pub(crate) use dispatch::Task;
 pub(crate) use eight::{EightHits, EightRays};
 pub use lambert::{Brightness, Told};
+pub(crate) use layout::{PACKET_PX, PACKETS, corner_of, lane_of};
 pub(crate) use points::{EightPoints, points};
 pub use stream::RayTo;
 
@@ -51,20 +53,6 @@ use walk::{Lead, Scenery, Waiting, walk};
 
 /// Pixels along the edge of a tile.
 pub const TILE_PX: usize = 16;
-/// Pixels of a packet along x, and along y.
-pub(crate) const PACKET_PX: (usize, usize) = (4, 2);
-/// Packets along x, and along y.
-const ACROSS: usize = TILE_PX / PACKET_PX.0;
-const DOWN: usize = TILE_PX / PACKET_PX.1;
-/// Packets in a tile.
-pub(crate) const PACKETS: usize = ACROSS * DOWN;
-
-/// The packet and the lane of a pixel.
-#[inline(always)]
-pub(crate) fn lane_of(x: usize, y: usize) -> (usize, usize) {
-    (y / PACKET_PX.1 * ACROSS + x / PACKET_PX.0, y % PACKET_PX.1 * PACKET_PX.0 + x % PACKET_PX.0)
-}
-
 /// What a ray meets: the body and the hit.
 pub type TileHit = Option<(usize, Hit)>;
 
@@ -243,8 +231,8 @@ impl Task for TraceTile<'_, '_> {
         let lanes_in = |number: usize| {
             let mut wanted = 0;
             for lane in 0..LANES {
-                let x = number % ACROSS * PACKET_PX.0 + lane % PACKET_PX.0;
-                let y = number / ACROSS * PACKET_PX.1 + lane / PACKET_PX.0;
+                let (left, top) = corner_of(number);
+                let (x, y) = (left + lane % PACKET_PX.0, top + lane / PACKET_PX.0);
                 wanted |= u8::from(x < size.0 as usize && y < size.1 as usize) << lane;
             }
             wanted

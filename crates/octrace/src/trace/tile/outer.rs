@@ -2,7 +2,7 @@
 
 use super::kernels::{Chunk, Stretch, bits_of};
 use super::lanes::{F64s, Isa, Kernel, Mask};
-use super::leaf::packets_of;
+use super::layout::packets_of;
 use super::packet::Origins;
 use super::program::{CHUNK, Kinds, is_short};
 use super::prune::Parts;

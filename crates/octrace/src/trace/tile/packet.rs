@@ -3,8 +3,8 @@
 use super::crossing::Rays;
 use super::eight::EightRays;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
+use super::layout::{PACKET_PX, corner_of};
 use super::walk::Scenery;
-use super::{ACROSS, PACKET_PX};
 use crate::compile::Word;
 use crate::geom::{Ray, Vec3};
 use crate::model::CameraRays;
@@ -95,7 +95,7 @@ impl Packet {
         place: (f64, f64),
         wanted: u8,
     ) {
-        let (column, row) = (number % ACROSS * PACKET_PX.0, number / ACROSS * PACKET_PX.1);
+        let (column, row) = corner_of(number);
         let x = F64s::<I>::splat(tile.0 + column as f64) + F64s::load(&LANE_X) + F64s::splat(place.0);
         let y = F64s::<I>::splat(tile.1 + row as f64) + F64s::load(&LANE_Y) + F64s::splat(place.1);
         // As CameraRays::ray.

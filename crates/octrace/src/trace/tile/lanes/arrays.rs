@@ -118,6 +118,18 @@ impl<const AVX2: bool> Isa for Arrays<AVX2> {
     }
 
     #[inline(always)]
+    fn least(v: [f64; LANES]) -> f64 {
+        let half = |i: usize| if v[i + 4] < v[i] { v[i + 4] } else { v[i] };
+        let quarter = |i: usize| if half(i + 2) < half(i) { half(i + 2) } else { half(i) };
+        if quarter(1) < quarter(0) { quarter(1) } else { quarter(0) }
+    }
+
+    #[inline(always)]
+    fn greatest(v: [f64; LANES]) -> f64 {
+        -Self::least(Self::neg(v))
+    }
+
+    #[inline(always)]
     fn lt(a: [f64; LANES], b: [f64; LANES]) -> Mask {
         pairs(a, b, |a, b| mask(a < b))
     }

@@ -46,6 +46,8 @@ impl Isa for Avx512 {
         // The instructions give the second operand where one is no number.
         min(a: __m512d, b: __m512d) -> __m512d = _mm512_min_pd(b, a);
         max(a: __m512d, b: __m512d) -> __m512d = _mm512_max_pd(b, a);
+        least(v: __m512d) -> f64 = _mm512_reduce_min_pd(v);
+        greatest(v: __m512d) -> f64 = _mm512_reduce_max_pd(v);
         lt(a: __m512d, b: __m512d) -> __mmask8 = _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b);
         le(a: __m512d, b: __m512d) -> __mmask8 = _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b);
         select(mask: __mmask8, yes: __m512d, no: __m512d) -> __m512d = _mm512_mask_blend_pd(mask, no, yes);

@@ -58,6 +58,10 @@ pub(crate) trait Isa: Copy {
     fn min(a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
     /// `b > a ? b : a`.
     fn max(a: Self::Numbers, b: Self::Numbers) -> Self::Numbers;
+    /// The least of eight numbers, of which none is NaN.
+    fn least(v: Self::Numbers) -> f64;
+    /// The greatest of eight numbers, of which none is NaN.
+    fn greatest(v: Self::Numbers) -> f64;
     fn lt(a: Self::Numbers, b: Self::Numbers) -> Self::Mask;
     fn le(a: Self::Numbers, b: Self::Numbers) -> Self::Mask;
     fn select(mask: Self::Mask, yes: Self::Numbers, no: Self::Numbers) -> Self::Numbers;
@@ -181,6 +185,18 @@ impl<I: Isa> F64s<I> {
     #[inline(always)]
     pub fn min(self, o: Self) -> Self {
         Self(I::min(self.0, o.0))
+    }
+
+    /// The least of all, of which none is NaN.
+    #[inline(always)]
+    pub fn least(self) -> f64 {
+        I::least(self.0)
+    }
+
+    /// The greatest of all, of which none is NaN.
+    #[inline(always)]
+    pub fn greatest(self) -> f64 {
+        I::greatest(self.0)
     }
 
     /// The larger of both; `self` where one is no number.
