@@ -94,8 +94,10 @@ pub fn evaluate_with(program: &OsStr, path: &Path, defines: &[String]) -> Result
     let starting_with = |prefix: &str| -> Vec<String> {
         said.lines().filter(|line| line.starts_with(prefix)).map(str::to_owned).collect()
     };
-    // OpenSCAD 2021.01 reports a failed assertion, writes what it has, and exits with success.
-    let failed = !output.status.success() || !starting_with("ERROR:").is_empty();
+    // OpenSCAD 2021.01 reports a failed assertion, writes what it has, and exits with success. A font or a file that it
+    // cannot find stops nothing.
+    let is_harmless = |line: &&str| line.starts_with("ERROR: Can't ");
+    let failed = !output.status.success() || said.lines().any(|line| line.starts_with("ERROR:") && !is_harmless(&line));
     let rejected = |message: String| ScadError::Rejected { path: path.to_owned(), message };
     if failed {
         let message = said.trim();
@@ -115,7 +117,7 @@ pub fn evaluate_with(program: &OsStr, path: &Path, defines: &[String]) -> Result
         base_dir: path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned(),
         warnings: said
             .lines()
-            .filter(|line| ["WARNING:", "DEPRECATED:", "TRACE:"].iter().any(|p| line.starts_with(p)))
+            .filter(|line| ["WARNING:", "DEPRECATED:", "TRACE:", "ERROR:"].iter().any(|p| line.starts_with(p)))
             .map(str::to_owned)
             .collect(),
         echoes: starting_with("ECHO:"),

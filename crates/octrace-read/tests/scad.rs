@@ -46,6 +46,15 @@ fn errors_of_the_program_are_passed_on() {
     }
 }
 
+/// OpenSCAD calls a font that is not there an error, and goes on.
+#[test]
+fn what_stops_nothing_is_a_warning() {
+    let Some(result) = evaluate("use <gone.ttf>\ncube(1);", &[]) else { return };
+    let output = result.expect("it can be evaluated");
+    assert!(output.csg_text.contains("cube"), "{}", output.csg_text);
+    assert!(output.warnings.iter().any(|line| line.contains("gone.ttf")), "{:?}", output.warnings);
+}
+
 #[test]
 fn a_file_that_is_not_there_is_an_error() {
     let missing = Path::new("/nonexistent/model.scad");

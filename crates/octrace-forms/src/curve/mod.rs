@@ -54,8 +54,11 @@ impl Pen {
         }
     }
 
-    /// A part of a circle; the whole one where it ends at its start.
+    /// A part of a circle; the whole one where it ends at its start. Circles of no size are points.
     pub fn arc_to(&mut self, p: Vec2, center: Vec2, radius: f64, ccw: bool) {
+        if radius <= 0.0 {
+            return self.line_to(p);
+        }
         self.contour.push(Edge { from: self.at, curve: Curve::Arc { center, radius, ccw } });
         self.at = p;
     }
@@ -214,6 +217,14 @@ mod tests {
         assert!((center - Vec2::new(2.0, 2.0)).length() < 1e-12 && (radius - 8.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!(bulged(a, a, 1.0), None);
         assert_eq!(bulged(a, b, 0.0), None);
+    }
+
+    #[test]
+    fn a_circle_of_no_size_is_nothing() {
+        let mut pen = Pen::new(Strokes::Arcs { tolerance: 1e-6 });
+        pen.move_to(Vec2::X);
+        pen.arc_to(Vec2::X, Vec2::X, 0.0, true);
+        assert!(pen.finish().is_empty());
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Height fields, as OpenSCAD's `surface` reads them: a table of numbers or a picture becomes a closed body.
 //!
 //! Neighbouring samples are one unit apart. Over each cell of four samples four triangles meet in the middle, at the mean
-//! height. The body goes down to one unit below the lowest sample, or to zero where that is lower.
+//! height. The body goes down to one unit below the lowest sample, or to zero where that is lower. Short rows end in samples
+//! that are zero, and do not count as lowest.
 
 use super::mesh::RawMesh;
 use octrace::Vec3;
@@ -15,6 +16,8 @@ const MOST_SAMPLES: usize = 1 << 24;
 pub struct HeightField {
     columns: usize,
     samples: Vec<f64>,
+    /// The lowest sample that the file has.
+    lowest: f64,
 }
 
 /// Where the body of a height field stands.
@@ -93,7 +96,7 @@ impl HeightField {
             Placement::Centered => (-((columns - 1) as f64) / 2.0, -((rows - 1) as f64) / 2.0),
         };
         let at = |x: f64, y: f64, z: f64| Vec3::new(corner.0 + x, corner.1 + y, z);
-        let bottom = self.samples.iter().fold(0.0_f64, |low, &z| low.min(z - 1.0));
+        let bottom = (self.lowest - 1.0).min(0.0);
         let mut mesh = RawMesh::default();
         for (index, &z) in self.samples.iter().enumerate() {
             mesh.points.push(at((index % columns) as f64, (index / columns) as f64, z));
@@ -148,11 +151,12 @@ fn table(bytes: &[u8]) -> Result<HeightField, HeightError> {
         return Err(HeightError::TooLarge);
     }
     let mut samples = Vec::with_capacity(columns * rows.len());
+    let lowest = rows.iter().flatten().copied().fold(f64::INFINITY, f64::min);
     for mut row in rows {
         row.resize(columns, 0.0);
         samples.append(&mut row);
     }
-    Ok(HeightField { columns, samples })
+    Ok(HeightField { columns, samples, lowest })
 }
 
 /// A pixel's luminance is its height; the picture's last row comes first.
@@ -177,8 +181,10 @@ fn picture(bytes: &[u8], shades: Shades) -> Result<HeightField, HeightError> {
     };
     let columns = frame.width as usize;
     let rows = pixels.chunks_exact(frame.line_size).take(frame.height as usize);
-    let samples = rows.rev().flat_map(|row| row.chunks_exact(channels).take(columns)).map(|p| height_of(shade(p)));
-    Ok(HeightField { columns, samples: samples.collect() })
+    let pixels = rows.rev().flat_map(|row| row.chunks_exact(channels).take(columns));
+    let samples: Vec<f64> = pixels.map(|pixel| height_of(shade(pixel))).collect();
+    let lowest = samples.iter().copied().fold(f64::INFINITY, f64::min);
+    Ok(HeightField { columns, samples, lowest })
 }
 
 #[cfg(test)]
@@ -205,6 +211,7 @@ mod tests {
     #[test]
     fn the_bottom_is_at_zero_at_most() {
         check(b"5 5\n5 5", Placement::Corner, 5.0, [0.0, 0.0, 0.0], [1.0, 1.0, 5.0]);
+        check(b"4 4\n4", Placement::Corner, 3.0, [0.0, 0.0, 0.0], [1.0, 1.0, 4.0]);
     }
 
     /// A picture of 3 by 2 pixels: red, green, blue above white, black, and (10, 20, 30).

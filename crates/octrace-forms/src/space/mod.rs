@@ -23,7 +23,7 @@ mod slab_sum;
 mod swept;
 
 pub use bounds::{bounds, resize, tight_bounds};
-pub use hull::hull;
+pub use hull::{hull, hull_with_corners};
 pub use mesh::{TriangleMesh, mesh};
 pub use minkowski::minkowski;
 pub use section::section;

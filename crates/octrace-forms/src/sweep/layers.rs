@@ -28,6 +28,8 @@ pub(super) enum Ends {
 pub(super) enum Sides {
     /// Along the shorter diagonal; where both are as long, along this one. For holes the other one.
     Cut(Diagonal),
+    /// The same, but along the longer diagonal between the last two layers: the upper one has no width.
+    CutToLine(Diagonal),
     /// They are flat and stay whole.
     Whole,
 }
@@ -171,12 +173,15 @@ impl Section {
                 for k in first..end {
                     let next = if k + 1 == end { first } else { k + 1 };
                     let side = [low + k, low + next, high + next, high + k];
-                    let Sides::Cut(or) = sides else {
+                    let (Sides::Cut(or) | Sides::CutToLine(or)) = sides else {
                         faces.push(side.to_vec());
                         continue;
                     };
                     let [a, b, c, d] = side;
-                    match Diagonal::shorter(side.map(|i| points[i as usize]), if is_hole { or.other() } else { or }) {
+                    let or = if is_hole { or.other() } else { or };
+                    let shorter = Diagonal::shorter(side.map(|i| points[i as usize]), or);
+                    let is_last = matches!(sides, Sides::CutToLine(_)) && band + 1 == bands;
+                    match if is_last { shorter.other() } else { shorter } {
                         Diagonal::Rising => faces.extend([vec![a, b, c], vec![a, c, d]]),
                         Diagonal::Falling => faces.extend([vec![a, b, d], vec![b, c, d]]),
                     }

@@ -98,7 +98,8 @@ fn sliced(shape: &Flat, how: &LinearExtrude, tolerance: Tolerance) -> Result<Sol
         (None, Some(by)) => (openscad_slices(how, radius, farthest, &by), polygons),
         (None, None) => fine(how, radius, tolerance, &polygons),
     };
-    let sides = Sides::Cut(if how.twist_deg > 0.0 { Diagonal::Rising } else { Diagonal::Falling });
+    let or = if how.twist_deg > 0.0 { Diagonal::Rising } else { Diagonal::Falling };
+    let sides = if how.scale.contains(&0.0) { Sides::CutToLine(or) } else { Sides::Cut(or) };
     let section = Section::new(&polygons);
     let place = |layer: usize, corner: Vec2| {
         let part = layer as f64 / f64::from(slices);
@@ -213,6 +214,10 @@ mod tests {
     fn sides_of_uneven_scaling_are_cut_as_openscad_does() {
         check(&square(3.0), &how(2.0, 0.0, [2.0, 1.0], None), 27.0);
         check(&square(3.0), &how(2.0, 0.0, [0.0, 1.0], None), 9.0);
+        let triangle = [[20.0, 0.0], [0.0, 10.0], [0.0, -10.0]].map(|[x, y]| Vec2::new(x, y)).to_vec();
+        let triangle = Flat::from(Outline::polygon(&[triangle]).expect("a triangle"));
+        check(&triangle, &how(10.0, 0.0, [1.0, 0.0], Some(1)), 4000.0 / 3.0);
+        check(&triangle, &how(10.0, 0.0, [1.0, 0.0], Some(2)), 1000.0);
         let pentagon: Vec<Vec2> = (0..5)
             .map(|i| {
                 let (sin, cos) = sin_cos_deg(72.0 * f64::from(i));

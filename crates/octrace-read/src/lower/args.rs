@@ -51,7 +51,11 @@ impl<'a> Args<'a> {
                 View::Rows(_) | View::List(_) => ", not this vector".to_owned(),
             };
             let message = format!("`{name}` of `{}` should be {}{found}", self.word.name, ty.expected());
-            report.push(Diagnostic::error("argument-type", at, message));
+            if ty.is_dumped_raw() {
+                report.degenerate("argument-type", at, message, "this is empty", None);
+            } else {
+                report.push(Diagnostic::error("argument-type", at, message));
+            }
         } else if matches!(self.ast.view(arg.value), View::Undef) {
             // The same as not given.
         } else if let Some((_, earlier)) = self.given.iter_mut().find(|(given, _)| *given == name) {

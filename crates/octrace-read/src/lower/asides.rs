@@ -1,7 +1,9 @@
 //! What is drawn beside the object: subtrees marked `%` or `#`, on request.
 
 use super::operand::Operand;
+use super::perform::plate;
 use octrace::{Affine, Material, Rgb, Solid};
+use octrace_forms::Tolerance;
 
 /// Where a node's result goes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,15 +25,17 @@ pub(super) struct Asides {
 }
 
 impl Asides {
-    /// Keeps what is to be drawn beside the object; `map` is from its parent to the scene.
-    pub fn take(&mut self, aside: Aside, operand: &Operand, map: &Affine) {
+    /// Keeps what is to be drawn beside the object; `map` is from its parent to the scene. What is flat becomes a plate.
+    pub fn take(&mut self, aside: Aside, operand: &Operand, map: &Affine, tolerance: Tolerance) {
         let list = match aside {
             Aside::No => return,
             Aside::Ghost => &mut self.ghosts,
             Aside::Highlight => &mut self.highlights,
         };
-        if let Operand::Solid(made) = operand {
-            list.push(made.solid.unpainted().transform(*map));
+        match operand {
+            Operand::Solid(made) => list.push(made.solid.unpainted().transform(*map)),
+            Operand::Flat(flat) => list.extend(plate(flat, tolerance).map(|plate| plate.transform(*map))),
+            Operand::Corners(_) | Operand::Empty | Operand::LeftOut => {}
         }
     }
 

@@ -48,17 +48,20 @@ fn ring(n: u32, radius: f64) -> Vec<Vec2> {
 
 /// `polygon(points, paths)`; `None` where it is nothing, and why was said.
 pub(super) fn polygon(args: &Args<'_>, report: &mut Report<'_>) -> Option<Flat> {
+    const NOTHING: &str = "the polygon is empty";
+    if args.damaged {
+        return None;
+    }
     let Some((points, points_at)) = args.rows("points") else {
-        if !args.damaged {
-            report.push(Diagnostic::error("missing-argument", args.name_at, "a polygon needs `points`"));
-        }
+        let wrong = "a polygon needs `points`".to_owned();
+        report.degenerate("missing-argument", args.name_at, wrong, NOTHING, None);
         return None;
     };
     let mut sound = true;
     for (i, p) in points.iter().enumerate().filter(|(_, p)| p.iter().any(|v| !v.is_finite())) {
         sound = false;
-        let message = format!("point {i} of this polygon has a coordinate that is not finite: {p:?}");
-        report.push(Diagnostic::error("polygon-point", element_range(report.text, points_at, &[i]), message));
+        let wrong = format!("point {i} of this polygon has a coordinate that is not finite: {p:?}");
+        report.degenerate("polygon-point", element_range(report.text, points_at, &[i]), wrong, NOTHING, None);
     }
     if !sound {
         return None;
@@ -68,7 +71,7 @@ pub(super) fn polygon(args: &Args<'_>, report: &mut Report<'_>) -> Option<Flat> 
     match args.rows("paths") {
         None => paths.push((0..points.len() as u32).collect()),
         Some((rows, at)) => {
-            let is_index = |v: f64| 0.0 <= v && v < points.len() as f64 && v.fract() == 0.0;
+            let is_index = report.index_below(points.len());
             for (row, path) in rows.iter().enumerate() {
                 for (k, index) in path.iter().enumerate().filter(|(_, v)| !is_index(**v)) {
                     let message = format!(

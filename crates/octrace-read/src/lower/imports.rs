@@ -5,6 +5,7 @@ use super::facets;
 use super::flats;
 use super::language::Kind;
 use super::operand::{Made, Operand};
+use super::polyhedron;
 use super::walk::Walk;
 use crate::SourceRange;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -18,13 +19,17 @@ use octrace_forms::text::{self, TextSpec};
 
 impl Walk<'_, '_> {
     /// What a leaf is; where it is nothing, why was said.
-    pub(super) fn shape(&mut self, kind: Kind, args: &Args<'_>) -> Operand {
+    pub(super) fn shape(&mut self, kind: Kind, args: &Args<'_>, in_hull: bool) -> Operand {
         let flat = match kind {
             Kind::Square => flats::square(args, &mut self.report),
             Kind::Circle => flats::circle(args, self.options.facets, &mut self.report),
             Kind::Polygon => flats::polygon(args, &mut self.report),
             Kind::Text => self.text(args),
-            Kind::Import => return self.import(args),
+            Kind::Polyhedron => {
+                let made = polyhedron::operand(args, in_hull, self.options.repair, &mut self.report);
+                return made.unwrap_or(Operand::Empty);
+            }
+            Kind::Import => return self.import(args, in_hull),
             Kind::Surface => return self.surface(args),
             solid => return self.shapes.leaf(solid, args, &mut self.report).map_or(Operand::Empty, bare),
         };
@@ -72,21 +77,24 @@ impl Walk<'_, '_> {
         }
     }
 
-    pub(super) fn import(&mut self, args: &Args<'_>) -> Operand {
-        let Some((name, bytes, at)) = self.file(args) else { return Operand::LeftOut };
+    pub(super) fn import(&mut self, args: &Args<'_>, in_hull: bool) -> Operand {
+        let (name, bytes, at) = match self.file(args) {
+            Ok(file) => file,
+            Err(nothing) => return nothing,
+        };
         if let Some(format) = MeshFormat::of_name(&name) {
             let mesh = match mesh::read(format, &bytes) {
                 Ok(mesh) => mesh,
                 Err(error) => return self.unreadable(&name, &error, at),
             };
-            return self.polyhedron(&name, mesh, at);
+            return self.polyhedron(&name, mesh, at, in_hull);
         }
         if let Some(format) = DrawingFormat::of_name(&name) {
             return self.drawing(&name, format, &bytes, args, at);
         }
         let help = "meshes are .stl .off .obj .amf .3mf, drawings .svg .dxf";
         let message = format!("`{name}` is of no kind that can be imported");
-        self.lacking(Diagnostic::error("unknown-format", at, message).with_help(help))
+        self.absent(Diagnostic::error("unknown-format", at, message).with_help(help))
     }
 
     fn drawing(
@@ -134,16 +142,19 @@ impl Walk<'_, '_> {
     }
 
     fn surface(&mut self, args: &Args<'_>) -> Operand {
-        let Some((name, bytes, at)) = self.file(args) else { return Operand::LeftOut };
+        let (name, bytes, at) = match self.file(args) {
+            Ok(file) => file,
+            Err(nothing) => return nothing,
+        };
         let shades = if args.flag("invert") { Shades::DarkIsHigh } else { Shades::BrightIsHigh };
         let placement = if args.flag("center") { height::Placement::Centered } else { height::Placement::Corner };
         match HeightField::read(&bytes, shades) {
-            Ok(field) => self.polyhedron(&name, field.body(placement), at),
+            Ok(field) => self.polyhedron(&name, field.body(placement), at, false),
             Err(error) => self.unreadable(&name, &error, at),
         }
     }
 
-    fn polyhedron(&mut self, name: &str, mesh: RawMesh, at: SourceRange) -> Operand {
+    fn polyhedron(&mut self, name: &str, mesh: RawMesh, at: SourceRange, in_hull: bool) -> Operand {
         let mesh = match self.options.repair {
             false => mesh,
             true => {
@@ -159,8 +170,10 @@ impl Walk<'_, '_> {
                 mesh
             }
         };
+        let corners = if in_hull { mesh.points.clone() } else { Vec::new() };
         match mesh.into_polyhedron() {
             Ok(polyhedron) => bare(Solid::primitive(polyhedron)),
+            Err(_) if in_hull => Operand::Corners(corners),
             Err(SolidError::Unsound(PolyhedronError::Flat)) => {
                 let wrong = format!("the mesh in `{name}` encloses no volume");
                 self.report.degenerate("mesh-empty", at, wrong, "it is empty", None);
@@ -175,8 +188,8 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// The file that a leaf names, and its content; `None` where it cannot be had, and why was said.
-    fn file(&mut self, args: &Args<'_>) -> Option<(String, Vec<u8>, SourceRange)> {
+    /// The file that a leaf names, and its content; what the leaf is where it cannot be had, and why was said.
+    fn file(&mut self, args: &Args<'_>) -> Result<(String, Vec<u8>, SourceRange), Operand> {
         let Some((name, at)) = args.text("file").filter(|(name, _)| !name.is_empty()) else {
             if !args.damaged {
                 let message = "this names no `file`, so there is nothing to import";
@@ -184,17 +197,24 @@ impl Walk<'_, '_> {
                 let severity = if forgives { Severity::Warning } else { Severity::Error };
                 self.report.push(Diagnostic::new(severity, "missing-argument", args.name_at, message));
             }
-            return None;
+            return Err(Operand::LeftOut);
         };
-        match self.assets.read(name) {
-            Ok(bytes) => Some((name.to_owned(), bytes, at)),
-            Err(error) => {
-                let message = format!("cannot read `{name}`: {error}");
-                let help = "names of files are relative to the folder of the file that names them";
-                self.lacking(Diagnostic::error("missing-file", at, message).with_help(help));
-                None
-            }
+        self.assets.read(name).map(|bytes| (name.to_owned(), bytes, at)).map_err(|error| {
+            let message = format!("cannot read `{name}`: {error}");
+            let help = "names of files are relative to the folder of the file that names them";
+            self.absent(Diagnostic::error("missing-file", at, message).with_help(help))
+        })
+    }
+
+    /// A file that is not there, or is none that can be imported. In a dump that is nothing, as for OpenSCAD, which draws the
+    /// rest and says so.
+    fn absent(&mut self, diagnostic: Diagnostic) -> Operand {
+        if self.options.skip_unsupported || !self.report.forgives() {
+            return self.lacking(diagnostic);
         }
+        let message = format!("{}; it is left out", diagnostic.message);
+        self.report.push(Diagnostic { severity: Severity::Warning, message, ..diagnostic });
+        Operand::Empty
     }
 
     fn unreadable(&mut self, name: &str, error: &dyn std::error::Error, at: SourceRange) -> Operand {

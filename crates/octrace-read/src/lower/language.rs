@@ -1,7 +1,7 @@
 //! The words of the language: every node, its arguments and their types, and what is still to come.
 
 use super::types::Type;
-use super::types::Type::{Any, Brightness, Flag, Lists, Matrix, Number, Numbers, Points, Text};
+use super::types::Type::{Any, Brightness, Corners, Flag, Lists, Matrix, Number, Numbers, Points, Text};
 
 /// A kind of node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word("halfspace", Kind::HalfSpace, &[]),
     word("torus", Kind::Torus, &[("major", Number), ("minor", Number)]),
-    word("polyhedron", Kind::Polyhedron, &[("points", Points(3)), ("faces", Lists), CONVEXITY, ("triangles", Lists)]),
+    word("polyhedron", Kind::Polyhedron, &[("points", Corners), ("faces", Lists), CONVEXITY, ("triangles", Lists)]),
     word("union", Kind::Group, &[]),
     word("group", Kind::Group, &[]),
     word("render", Kind::Group, &[CONVEXITY]),
@@ -159,7 +159,7 @@ pub(super) const WORDS: &[Word] = &[
     word("background", Kind::Background, &[("color", Brightness)]),
     word("square", Kind::Square, &[("size", Type::Scale(2, 2)), CENTER]),
     word("circle", Kind::Circle, &[("r", Number), ("d", Number), FN, FA, FS]),
-    word("polygon", Kind::Polygon, &[("points", Points(2)), ("paths", Lists), CONVEXITY, FN, FA, FS]),
+    word("polygon", Kind::Polygon, &[("points", Points), ("paths", Lists), CONVEXITY, FN, FA, FS]),
     word(
         "text",
         Kind::Text,

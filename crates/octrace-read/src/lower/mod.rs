@@ -73,9 +73,10 @@ pub(crate) fn lower(ast: &Ast, source: &Source, options: &ReadOptions, out: &mut
         Operand::Flat(flat) => {
             let message = "this is flat; it becomes a plate of height 1, as in OpenSCAD's preview";
             out.push(Diagnostic::note("flat-file", first_at, message));
-            perform::plate(&flat, options.tolerance).into_iter().collect()
+            let plate = perform::plate(&flat, options.tolerance);
+            plate.map_err(|error| out.push(perform::failed(&error, first_at))).into_iter().collect()
         }
-        Operand::Empty | Operand::LeftOut => Vec::new(),
+        Operand::Corners(_) | Operand::Empty | Operand::LeftOut => Vec::new(),
     };
     for (solid, material) in asides.finish() {
         solids.push(solid.part(parts.of(material, first_at)));

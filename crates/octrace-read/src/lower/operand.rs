@@ -1,7 +1,7 @@
 //! What a node is to the operation around it, and how operands are combined.
 
 use crate::SourceRange;
-use octrace::{BoolOp, PartId, Solid};
+use octrace::{BoolOp, PartId, Solid, Vec3};
 use octrace_forms::plane::Flat;
 
 /// What a node is to the operation around it.
@@ -11,6 +11,8 @@ pub(super) enum Operand {
     Solid(Made),
     /// A shape in the plane z = 0.
     Flat(Flat),
+    /// The corners of a surface that bounds no solid. They count for a hull, and are nothing to all else.
+    Corners(Vec<Vec3>),
     /// Nothing, and meant to be.
     Empty,
     /// Something that cannot be rendered.
@@ -62,7 +64,7 @@ impl Operand {
     /// How many dimensions it has, if it is anything.
     pub fn dimension(&self) -> Option<Dimension> {
         match self {
-            Self::Solid(_) => Some(Dimension::Three),
+            Self::Solid(_) | Self::Corners(_) => Some(Dimension::Three),
             Self::Flat(_) => Some(Dimension::Two),
             Self::Empty | Self::LeftOut => None,
         }
@@ -73,7 +75,10 @@ impl Operand {
 pub(super) type Operands = Vec<(SourceRange, Operand)>;
 
 /// Combines operands of one dimension. Without any, it is left out if some operand is.
-pub(super) fn combine(op: BoolOp, operands: Operands) -> Operand {
+pub(super) fn combine(op: BoolOp, mut operands: Operands) -> Operand {
+    if operands.len() == 1 {
+        return operands.pop().map_or(Operand::Empty, |(_, only)| only);
+    }
     let left_out = operands.iter().any(|(_, o)| matches!(o, Operand::LeftOut));
     let (mut first_part, mut bare) = (None, false);
     let mut solids = Vec::with_capacity(operands.len());
@@ -86,7 +91,7 @@ pub(super) fn combine(op: BoolOp, operands: Operands) -> Operand {
                 solids.push(made.solid);
             }
             Operand::Flat(flat) => flats.push(flat),
-            Operand::Empty | Operand::LeftOut => {}
+            Operand::Corners(_) | Operand::Empty | Operand::LeftOut => {}
         }
     }
     if !solids.is_empty() {

@@ -7,7 +7,7 @@ use super::walk::{Frame, Walk};
 use crate::SourceRange;
 use crate::diagnostic::Diagnostic;
 use octrace::model::Node;
-use octrace::{BoolOp, Solid, Vec2};
+use octrace::{BoolOp, Solid, Vec2, Vec3};
 use octrace_forms::Tolerance;
 use octrace_forms::plane::{self, Affine2, Flat, PlaneError};
 use octrace_forms::space::{self, SpaceError};
@@ -16,7 +16,7 @@ use octrace_forms::sweep::{self, SweepError};
 impl<'a> Walk<'a, '_> {
     /// Combines what the children of a node are.
     pub(super) fn leave(&mut self, frame: Frame<'a>) -> Operand {
-        let Frame { node, operation, operands, look, new_look, placement, placement_at, .. } = frame;
+        let Frame { node, operation, operands, look, new_look, placement, placement_at, in_hull, .. } = frame;
         let at = node.map_or(SourceRange::default(), |node| self.ast.name_at(node));
         let tolerance = self.options.tolerance;
         let operands = self.of_one_dimension(node.map_or("the file", |node| self.ast.name(node)), &operation, operands);
@@ -34,7 +34,7 @@ impl<'a> Walk<'a, '_> {
                 nothing => nothing,
             },
         };
-        let placed = self.placed(combined, placement, placement_at);
+        let placed = self.placed(combined, placement, placement_at, in_hull);
         match (placed, node) {
             (Operand::Solid(made), Some(node)) if new_look && made.bare => {
                 let part = self.parts.of(look.material(), self.ast.name_at(node));
@@ -69,7 +69,7 @@ impl<'a> Walk<'a, '_> {
                 self.consequence(at, "the first operand of this difference is left out, and so is all of it");
                 return Operand::LeftOut;
             }
-            Some((_, Operand::Empty)) | None => return Operand::Empty,
+            Some((_, Operand::Empty | Operand::Corners(_))) | None => return Operand::Empty,
         };
         let paint = |(i, (at, operand))| match (operand, wall) {
             (Operand::Solid(tool), Some(part)) if i > 0 => (at, Operand::Solid(tool.part(part))),
@@ -101,14 +101,23 @@ impl<'a> Walk<'a, '_> {
             let help = "move it to one side, or intersect it with a square on one side".to_owned();
             self.report.degenerate("across-axis", at, error.to_string(), "it is left out", Some(help));
         } else {
-            self.report.push(Diagnostic::error("operation-failed", at, format!("this cannot be made: {error}")));
+            self.report.push(failed(&error, at));
         }
         Operand::Empty
     }
 
-    fn placed(&mut self, operand: Operand, placement: Placement, at: SourceRange) -> Operand {
+    fn placed(&mut self, operand: Operand, placement: Placement, at: SourceRange, in_hull: bool) -> Operand {
         let Placement::Moved(map) = placement else { return Operand::Empty };
         match operand {
+            Operand::Corners(corners) if map.is_finite() => {
+                Operand::Corners(corners.into_iter().map(|corner| map.point(corner)).collect())
+            }
+            // A hull takes what is flattened for what it still is: a surface.
+            Operand::Solid(made) if in_hull && map.is_finite() && map.inverse().is_none() => {
+                let surface = space::mesh(&made.solid, self.options.tolerance).map_err(OperationError::from);
+                let corners = |mesh: space::TriangleMesh| mesh.points.into_iter().map(|p| map.point(p)).collect();
+                self.settled(surface.map(|mesh| Operand::Corners(corners(mesh))), at)
+            }
             Operand::Solid(made) if map.inverse().is_some() => {
                 Operand::Solid(Made { solid: made.solid.transform(map), ..made })
             }
@@ -136,6 +145,11 @@ impl<'a> Walk<'a, '_> {
     }
 }
 
+/// The word about it.
+pub(super) fn failed(error: &OperationError, at: SourceRange) -> Diagnostic {
+    Diagnostic::error("operation-failed", at, format!("this cannot be made: {error}"))
+}
+
 /// Why an operation could not be done.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum OperationError {
@@ -148,20 +162,30 @@ pub(super) enum OperationError {
 }
 
 fn hull(operands: Operands, tolerance: Tolerance) -> Result<Operand, OperationError> {
+    let loose: Vec<Vec3> = operands.iter().filter_map(|(_, o)| corners(o)).flatten().copied().collect();
     let (solids, flats) = sorted(operands);
-    if !solids.is_empty() {
-        return Ok(bare(space::hull(&solids, tolerance)?));
+    if !solids.is_empty() || !loose.is_empty() {
+        return Ok(bare(space::hull_with_corners(&solids, &loose, tolerance)?));
     }
     let outlines = flats.iter().map(|flat| flat.outline(tolerance)).collect::<Result<Vec<_>, _>>()?;
     Ok(Operand::Flat(plane::hull(outlines.iter().map(|outline| &**outline)).into()))
 }
 
 fn minkowski(operands: Operands, tolerance: Tolerance) -> Result<Operand, OperationError> {
-    let (solids, flats) = sorted(operands);
+    let lacks_one = operands.iter().any(|(_, o)| matches!(o, Operand::Empty));
+    let (mut solids, flats) = sorted(operands);
     if !solids.is_empty() {
-        return Ok(bare(space::minkowski(&solids, tolerance)?));
+        let sum = space::minkowski(&solids, tolerance)?;
+        let count = solids.len();
+        if matches!(sum.node(), Node::Empty) {
+            // OpenSCAD leaves out what turns out to be empty.
+            solids.retain(|solid| !space::tight_bounds(solid).is_ok_and(|bounds| bounds.is_empty()));
+        }
+        let again = solids.len() < count && !solids.is_empty();
+        return Ok(bare(if again { space::minkowski(&solids, tolerance)? } else { sum }));
     }
-    let Some((first, others)) = flats.split_first() else { return Ok(Operand::Empty) };
+    // In the plane the sum with nothing is nothing.
+    let Some((first, others)) = flats.split_first().filter(|_| !lacks_one) else { return Ok(Operand::Empty) };
     let mut sum = first.outline(tolerance)?.as_ref().clone();
     for other in others {
         sum = sum.minkowski(&*other.outline(tolerance)?, tolerance)?;
@@ -213,13 +237,20 @@ fn bare(solid: Solid) -> Operand {
     Operand::Solid(Made::bare(solid))
 }
 
+fn corners(operand: &Operand) -> Option<&Vec<Vec3>> {
+    match operand {
+        Operand::Corners(corners) => Some(corners),
+        _ => None,
+    }
+}
+
 fn sorted(operands: Operands) -> (Vec<Solid>, Vec<Flat>) {
     let (mut solids, mut flats) = (Vec::new(), Vec::new());
     for (_, operand) in operands {
         match operand {
             Operand::Solid(made) => solids.push(made.solid),
             Operand::Flat(flat) => flats.push(flat),
-            Operand::Empty | Operand::LeftOut => {}
+            Operand::Corners(_) | Operand::Empty | Operand::LeftOut => {}
         }
     }
     (solids, flats)

@@ -1,12 +1,15 @@
 //! `polyhedron(points, faces)`, and what can be wrong with it.
 
 use super::args::Args;
+use super::operand::{Made, Operand};
 use super::report::Report;
 use crate::SourceRange;
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::syntax::{Rows, element_range};
 use octrace::{Polyhedron, PolyhedronError, Solid, Vec3};
-use octrace_forms::files::mesh::RawMesh;
+use octrace_forms::files::mesh::{RawMesh, SolidError};
+
+const NOTHING: &str = "the polyhedron is empty";
 
 /// The arguments as written.
 struct Written<'a> {
@@ -16,82 +19,87 @@ struct Written<'a> {
     faces_at: SourceRange,
 }
 
-/// The solid, or `None` where there is none; why was said.
-pub(super) fn solid(args: &Args<'_>, repair: bool, report: &mut Report<'_>) -> Option<Solid> {
+/// The solid, or `None` where there is none; why was said. To a hull (`in_hull`) a surface that bounds no solid is its
+/// corners, as it is to OpenSCAD's.
+pub(super) fn operand(args: &Args<'_>, in_hull: bool, repair: bool, report: &mut Report<'_>) -> Option<Operand> {
     let faces_name = if args.get("faces").is_some() { "faces" } else { "triangles" };
+    if args.damaged {
+        return None;
+    }
     let (Some((points, points_at)), Some((faces, faces_at))) = (args.rows("points"), args.rows(faces_name)) else {
-        if !args.damaged {
-            let message = "a polyhedron needs `points` and `faces`";
-            report.push(Diagnostic::error("missing-argument", args.name_at, message));
-        }
+        let wrong = "a polyhedron needs `points` and `faces`".to_owned();
+        report.degenerate("missing-argument", args.name_at, wrong, NOTHING, None);
         return None;
     };
     let written = Written { points, points_at, faces, faces_at };
-    if !written.is_sound(report) {
-        return None;
-    }
+    let faces = written.checked_faces(report)?;
     // Faces of fewer than three corners have no area.
-    let usable: Vec<(usize, &[f64])> = faces.iter().enumerate().filter(|(_, face)| face.len() >= 3).collect();
-    if usable.is_empty() {
-        let wrong = "this polyhedron has no faces".to_owned();
-        report.degenerate("polyhedron-empty", args.name_at, wrong, "it is empty", None);
+    let usable: Vec<(usize, &Vec<u32>)> = faces.iter().enumerate().filter(|(_, face)| face.len() >= 3).collect();
+    // OpenSCAD lists the corners of a face clockwise as seen from outside.
+    let corners: Vec<Vec<u32>> = usable.iter().map(|(_, face)| face.iter().rev().copied().collect()).collect();
+    let points: Vec<Vec3> = points.iter().map(point).collect();
+    let error = match Polyhedron::new(points.clone(), corners.clone()) {
+        Ok(polyhedron) => return Some(bare(polyhedron)),
+        Err(_) if in_hull && report.forgives() => {
+            let used = corners.iter().flatten().map(|&corner| points[corner as usize]);
+            return Some(Operand::Corners(used.collect()));
+        }
+        Err(error) => error,
+    };
+    if usable.is_empty() || matches!(error, PolyhedronError::Flat) {
+        let what = if usable.is_empty() { "has no faces" } else { "encloses no volume" };
+        report.degenerate("polyhedron-empty", args.name_at, format!("this polyhedron {what}"), "it is empty", None);
         return None;
     }
-    // OpenSCAD lists the corners of a face clockwise as seen from outside.
-    let corners: Vec<Vec<u32>> =
-        usable.iter().map(|(_, face)| face.iter().rev().map(|&v| v as u32).collect()).collect();
-    let points: Vec<Vec3> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
-    match Polyhedron::new(points.clone(), corners.clone()) {
-        Ok(polyhedron) => Some(Solid::primitive(polyhedron)),
-        Err(PolyhedronError::Flat) => {
-            let wrong = "this polyhedron encloses no volume".to_owned();
-            report.degenerate("polyhedron-empty", args.name_at, wrong, "it is empty", None);
-            None
+    let original = |face: usize| usable.get(face).map_or(face, |(original, _)| *original);
+    let complaint = written.complaint(&error, original, args.name_at, report.text);
+    // OpenSCAD shows what is open all the same.
+    let mends = repair || report.forgives();
+    let (made, outcome) = match mends.then(|| RawMesh { points, faces: corners }.repaired().0.into_polyhedron()) {
+        Some(Ok(polyhedron)) => (Some(bare(polyhedron)), "it was mended"),
+        Some(Err(SolidError::Unsound(PolyhedronError::Flat))) => (None, "it encloses nothing"),
+        Some(Err(_)) | None => {
+            report.push(complaint);
+            return None;
         }
-        Err(error) => {
-            let original = |face: usize| usable.get(face).map_or(face, |(original, _)| *original);
-            let complaint = written.complaint(&error, original, args.name_at, report.text);
-            // OpenSCAD shows what is open all the same.
-            let mended = if repair || report.forgives() { mended(points, corners) } else { None };
-            report.push(match mended {
-                Some(_) => Diagnostic {
-                    severity: Severity::Warning,
-                    message: format!("{}; it was mended", complaint.message),
-                    ..complaint
-                },
-                None => complaint,
-            });
-            mended.map(Solid::primitive)
-        }
-    }
+    };
+    let message = format!("{}; {outcome}", complaint.message);
+    report.push(Diagnostic { severity: Severity::Warning, message, ..complaint });
+    made
 }
 
-/// The solid that comes of closing the surface as well as can be.
-fn mended(points: Vec<Vec3>, faces: Vec<Vec<u32>>) -> Option<Polyhedron> {
-    RawMesh { points, faces }.repaired().0.into_polyhedron().ok()
+fn bare(polyhedron: Polyhedron) -> Operand {
+    Operand::Solid(Made::bare(Solid::primitive(polyhedron)))
+}
+
+/// A point as written: the last coordinate may be missing.
+fn point(p: &[f64]) -> Vec3 {
+    Vec3::new(p[0], p[1], p.get(2).copied().unwrap_or(0.0))
 }
 
 impl Written<'_> {
-    /// Whether all coordinates are finite and all indices those of points; reports those that are not.
-    fn is_sound(&self, report: &mut Report<'_>) -> bool {
+    /// The faces, as numbers of points; `None` where a coordinate is not finite. Reports those, and indices of no point,
+    /// which OpenSCAD passes over.
+    fn checked_faces(&self, report: &mut Report<'_>) -> Option<Vec<Vec<u32>>> {
         let mut sound = true;
         for (i, p) in self.points.iter().enumerate().filter(|(_, p)| p.iter().any(|v| !v.is_finite())) {
             sound = false;
-            let message = format!("point {i} of this polyhedron has a coordinate that is not finite: {p:?}");
+            let wrong = format!("point {i} of this polyhedron has a coordinate that is not finite: {p:?}");
             let at = element_range(report.text, self.points_at, &[i]);
-            report.push(Diagnostic::error("polyhedron-point", at, message));
+            report.degenerate("polyhedron-point", at, wrong, NOTHING, None);
         }
         let count = self.points.len();
-        let is_index = |v: f64| 0.0 <= v && v < count as f64 && v.fract() == 0.0;
+        let is_index = report.index_below(count);
         for (f, face) in self.faces.iter().enumerate() {
             for (k, index) in face.iter().enumerate().filter(|(_, v)| !is_index(**v)) {
-                sound = false;
-                let message = format!("face {f} names point {index}, but there are {count} points, numbered from 0");
+                sound &= report.forgives();
+                let wrong = format!("face {f} names point {index}, but there are {count} points, numbered from 0");
                 let at = element_range(report.text, self.faces_at, &[f, k]);
-                report.push(Diagnostic::error("polyhedron-index", at, message));
+                report.degenerate("polyhedron-index", at, wrong, "it is passed over", None);
             }
         }
-        sound
+        let usable = |face: &[f64]| face.iter().filter(|v| is_index(**v)).map(|&v| v as u32).collect();
+        sound.then(|| self.faces.iter().map(usable).collect())
     }
 
     /// What is wrong with the surface. `original` tells a face's number in the file.
@@ -103,7 +111,10 @@ impl Written<'_> {
         text: &str,
     ) -> Diagnostic {
         let corner = |i: u32| match self.points.get(i as usize) {
-            Some([x, y, z]) => format!("point {i} at [{x}, {y}, {z}]"),
+            Some(p) => {
+                let [x, y, z] = point(p).to_array();
+                format!("point {i} at [{x}, {y}, {z}]")
+            }
             _ => format!("point {i}"),
         };
         let place = |face: usize| element_range(text, self.faces_at, &[face]);

@@ -36,6 +36,12 @@ impl<'r> Report<'r> {
         self.dialect == Dialect::Dump
     }
 
+    /// Whether a number names one of `count` things, counted from 0. OpenSCAD drops what is behind the point.
+    pub fn index_below(&self, count: usize) -> impl Fn(f64) -> bool + use<> {
+        let forgives = self.forgives();
+        move |v| 0.0 <= v && v < count as f64 && (forgives || v.fract() == 0.0)
+    }
+
     /// A size that makes no sense. Whoever writes a scene by hand is wrong there; in a dump the thing is nothing, as it
     /// is for OpenSCAD.
     pub fn degenerate(

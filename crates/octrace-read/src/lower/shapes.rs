@@ -3,7 +3,6 @@
 use super::args::Args;
 use super::facets;
 use super::language::Kind;
-use super::polyhedron;
 use super::report::Report;
 use crate::diagnostic::Diagnostic;
 use crate::{Facets, SourceRange};
@@ -14,8 +13,6 @@ use std::collections::HashMap;
 /// Makes leaves, and each primitive only once.
 pub(super) struct Shapes {
     facets: Facets,
-    /// Whether polyhedra that are not closed are mended.
-    repair: bool,
     units: HashMap<Unit, Solid>,
 }
 
@@ -41,8 +38,8 @@ const MOST_FACETS_OF_A_CYLINDER: u32 = 100_000;
 const MOST_FACETS_OF_A_BALL: u32 = 2_000;
 
 impl Shapes {
-    pub fn new(facets: Facets, repair: bool) -> Self {
-        Self { facets, repair, units: HashMap::new() }
+    pub fn new(facets: Facets) -> Self {
+        Self { facets, units: HashMap::new() }
     }
 
     /// The solid of a leaf, or `None` where it is nothing; why was said.
@@ -54,7 +51,6 @@ impl Shapes {
             Kind::Sphere => self.sphere(args, report),
             Kind::Cylinder => self.cylinder(args, report),
             Kind::Torus => self.torus(args, report),
-            Kind::Polyhedron => polyhedron::solid(args, self.repair, report),
             _ => None,
         }
     }

@@ -71,9 +71,12 @@ fn matrix(args: &Args<'_>, report: &mut Report<'_>) -> Option<Affine> {
     let last = [0, 1, 2, 3].map(|j| entry(3, j));
     if last[..3] != [0.0; 3] || last[3] == 0.0 || last[3].is_nan() {
         let place = crate::syntax::element_range(report.text, at, &[3]);
-        let message = "the last row of the matrix should be [0, 0, 0, 1]: a perspective map is not a transform";
-        report.push(Diagnostic::error("not-affine", place, message));
-        return None;
+        let wrong = "the last row of the matrix should be [0, 0, 0, 1]: a perspective map is not a transform";
+        // OpenSCAD looks at its last number only.
+        report.degenerate("not-affine", place, wrong.to_owned(), "its first three numbers are ignored", None);
+        if !report.forgives() {
+            return None;
+        }
     }
     Some(Affine::from_rows([0, 1, 2].map(|i| [0, 1, 2, 3].map(|j| entry(i, j) / last[3]))))
 }

@@ -12,8 +12,10 @@ pub(super) enum Type {
     Numbers(usize, usize),
     /// A number, or so many, from and to.
     Scale(usize, usize),
-    /// A vector of points, each of so many numbers.
-    Points(usize),
+    /// A vector of points of two numbers.
+    Points,
+    /// A vector of points of three numbers; the last may be left away, and is 0 then.
+    Corners,
     /// A vector of vectors of numbers.
     Lists,
     /// Three or four rows of three or four numbers.
@@ -37,7 +39,8 @@ impl Type {
             Self::Numbers(from, to) => format!("a vector of {from} to {to} numbers"),
             Self::Scale(from, to) if from == to => format!("a number or a vector of {}", times(from)),
             Self::Scale(from, to) => format!("a number or a vector of {from} to {to} numbers"),
-            Self::Points(n) => format!("a vector of points of {}", times(n)),
+            Self::Points => "a vector of points of two numbers".to_owned(),
+            Self::Corners => "a vector of points of three numbers".to_owned(),
             Self::Lists => "a vector of vectors of numbers".to_owned(),
             Self::Matrix => "a vector of three or four rows of four numbers".to_owned(),
             Self::Color => "a colour: a name, \"#rrggbb\" or [r, g, b]".to_owned(),
@@ -59,23 +62,35 @@ impl Type {
             (Self::Scale(..) | Self::Brightness, View::Number(_)) => Ok(()),
             (Self::Color | Self::Brightness, View::Numbers(n)) => all((3..=4).contains(&n.len())),
             (Self::Color | Self::Brightness, View::Text(_)) => Ok(()),
-            (Self::Points(_) | Self::Lists, View::Numbers([])) => Ok(()),
-            (Self::Points(n), View::Rows(rows)) => first_bad(rows.iter(), |row| row.len() == n),
+            (Self::Points | Self::Corners | Self::Lists, View::Numbers([])) => Ok(()),
+            (Self::Points | Self::Corners, View::Rows(rows)) => first_bad(rows.iter(), |row| self.fits(row)),
             (Self::Lists, View::Rows(_)) => Ok(()),
             (Self::Matrix, View::Rows(rows)) if (3..=4).contains(&rows.len()) => {
                 first_bad(rows.iter(), |row| (3..=4).contains(&row.len()))
             }
-            (Self::Points(_) | Self::Lists | Self::Matrix, View::List(items)) => self.check_items(ast, items),
+            (Self::Points | Self::Corners | Self::Lists | Self::Matrix, View::List(items)) => {
+                self.check_items(ast, items)
+            }
             _ => Err(Vec::new()),
         }
     }
 
-    fn check_items(self, ast: &Ast, items: &[Value]) -> Result<(), Vec<usize>> {
-        let length = |row: &[f64]| match self {
-            Self::Points(n) => row.len() == n,
+    /// Whether a row of numbers has the length that it should have.
+    fn fits(self, row: &[f64]) -> bool {
+        match self {
+            Self::Points => row.len() == 2,
+            Self::Corners => (2..=3).contains(&row.len()),
             _ => true,
-        };
-        let row = items.iter().position(|&item| !matches!(ast.view(item), View::Numbers(row) if length(row)));
+        }
+    }
+
+    /// Whether OpenSCAD makes nothing of a shape with a wrong value, and says so in its dump.
+    pub fn is_dumped_raw(self) -> bool {
+        matches!(self, Self::Points | Self::Corners | Self::Lists)
+    }
+
+    fn check_items(self, ast: &Ast, items: &[Value]) -> Result<(), Vec<usize>> {
+        let row = items.iter().position(|&item| !matches!(ast.view(item), View::Numbers(row) if self.fits(row)));
         let Some(row) = row else { return Err(Vec::new()) };
         match ast.view(items[row]) {
             View::List(inner) => {

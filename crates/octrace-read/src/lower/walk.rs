@@ -36,6 +36,8 @@ pub(super) struct Frame<'a> {
     counts: bool,
     /// Whether colours and materials count here.
     paints: bool,
+    /// Whether a hull takes it as it is, for what a surface that bounds no solid still is to a hull.
+    pub in_hull: bool,
     /// Where its result goes besides, or instead.
     aside: Aside,
     /// What was there when it was entered, to tell what comes of it.
@@ -72,7 +74,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             assets,
             words: ast.names().map(language::find).collect(),
             report,
-            shapes: Shapes::new(options.facets, options.repair),
+            shapes: Shapes::new(options.facets),
             memory: Memory::of(ast),
             asides: Asides::default(),
             root: None,
@@ -102,6 +104,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             map: Affine::IDENTITY,
             counts: self.root.is_none(),
             paints: true,
+            in_hull: false,
             aside: Aside::No,
             known: None,
         };
@@ -125,7 +128,7 @@ impl<'a, 'r> Walk<'a, 'r> {
                 self.remember(node, known, &operand);
             }
             let around = stack.last().map_or(Affine::IDENTITY, |parent| parent.map);
-            self.asides.take(aside, &operand, &around);
+            self.asides.take(aside, &operand, &around, self.options.tolerance);
             if node.is_some() && node == self.root {
                 self.root_result = operand.clone();
             }
@@ -200,18 +203,20 @@ impl<'a, 'r> Walk<'a, 'r> {
             return Step::Done(Some(operand));
         }
         let known = remembers.then(|| Known { look, said: self.report.count(), leaves: self.leaves });
+        let in_hull = self.takes_for_hull(parent);
         let args = Args::of(self.ast, node, word, &mut self.report);
         if word.kind.is_leaf() {
             self.refuse_children(node, word);
-            let operand = self.leaf(word.kind, &args, &map, counts);
+            let operand = self.leaf(word.kind, &args, &map, counts, in_hull);
             if is_root {
                 self.root_result = operand.clone().unwrap_or(Operand::Empty);
             }
-            self.asides.take(aside, operand.as_ref().unwrap_or(&Operand::Empty), &parent.map);
+            let drawn = operand.as_ref().unwrap_or(&Operand::Empty);
+            self.asides.take(aside, drawn, &parent.map, self.options.tolerance);
             return Step::Done(operand.filter(|_| aside != Aside::Ghost));
         }
         let operation = Operation::of(word.kind, &args, self.options.facets, &mut self.report);
-        let mut frame = Frame { counts, paints, aside, known, ..self.frame(node, operation, look, map) };
+        let mut frame = Frame { counts, paints, in_hull, aside, known, ..self.frame(node, operation, look, map) };
         match word.kind {
             Kind::Unsupported(needs) => {
                 if counts {
@@ -231,7 +236,7 @@ impl<'a, 'r> Walk<'a, 'r> {
             }
         }
         if counts && matches!(word.kind, Kind::LinearExtrude | Kind::RotateExtrude) && args.names_a_file() {
-            let drawing = self.import(&args);
+            let drawing = self.import(&args, false);
             frame.operands.push((args.name_at, drawing));
         }
         frame.new_look = frame.look != look;
@@ -251,12 +256,23 @@ impl<'a, 'r> Walk<'a, 'r> {
             map,
             counts: false,
             paints: true,
+            in_hull: false,
             aside: Aside::No,
             known: None,
         }
     }
 
-    fn leaf(&mut self, kind: Kind, args: &Args<'_>, map: &Affine, counts: bool) -> Option<Operand> {
+    /// Whether a hull takes a child of this node as it is.
+    fn takes_for_hull(&self, parent: &Frame<'a>) -> bool {
+        let is_only = || parent.node.is_some_and(|node| self.ast.children(node).nth(1).is_none());
+        match parent.operation {
+            Operation::Hull => true,
+            Operation::Unite => parent.in_hull && is_only(),
+            _ => false,
+        }
+    }
+
+    fn leaf(&mut self, kind: Kind, args: &Args<'_>, map: &Affine, counts: bool, in_hull: bool) -> Option<Operand> {
         if matches!(kind, Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background) {
             self.settings.take(kind, args, map, &mut self.report);
             return None;
@@ -264,7 +280,7 @@ impl<'a, 'r> Walk<'a, 'r> {
         if !counts {
             return Some(Operand::Empty);
         }
-        let operand = self.shape(kind, args);
+        let operand = self.shape(kind, args, in_hull);
         // A map that flattens is complained about where it is.
         if let Operand::Solid(made) = &operand
             && map.inverse().is_some()
@@ -278,7 +294,7 @@ impl<'a, 'r> Walk<'a, 'r> {
 
     /// Keeps in mind what a node became, if there was nothing to say about it.
     fn remember(&mut self, node: NodeId, known: Known, operand: &Operand) {
-        if self.report.count() == known.said {
+        if self.report.count() == known.said && !matches!(operand, Operand::Corners(_)) {
             self.memory.remember(self.ast, node, known.look, operand.clone(), self.leaves - known.leaves);
         }
     }

@@ -40,7 +40,7 @@ use super::leaves::{Leaf, leaves};
 use super::mesh::mesh;
 use super::round::{Extremes, Fit};
 use crate::Tolerance;
-use octrace::Solid;
+use octrace::{Solid, Vec3};
 
 /// Up to so many curved things and corners have their hull found exactly, for that takes the third power of the number.
 const MOST: usize = 300;
@@ -50,7 +50,16 @@ const MOST: usize = 300;
 /// # Errors
 /// If a solid is unbounded, or a boundary that has to be found cannot be: see [`SpaceError`].
 pub fn hull(solids: &[Solid], tolerance: Tolerance) -> Result<Solid, SpaceError> {
+    hull_with_corners(solids, &[], tolerance)
+}
+
+/// The convex hull of solids and of points besides.
+///
+/// # Errors
+/// As for [`hull`].
+pub fn hull_with_corners(solids: &[Solid], corners: &[Vec3], tolerance: Tolerance) -> Result<Solid, SpaceError> {
     let mut extremes = Extremes::default();
+    extremes.points.extend_from_slice(corners);
     for (map, leaf) in leaves(solids) {
         match leaf {
             Leaf::Primitive(primitive) => extremes.add(primitive, &map, tolerance)?,
