@@ -1,15 +1,16 @@
 //! The faces of primitives, moved to where they stand.
 
 use super::face::Face;
+use super::facets::{Faces, facet};
 use crate::geom::{Affine, Vec3};
-use crate::primitive::{FacePlane, Polyhedron};
+use crate::primitive::Polyhedron;
 use crate::surface::{Plane, QuadricKind, TorusKind};
 
 /// The faces of one primitive, moved to the scene by `map`.
 pub(super) struct FaceList<'a> {
     pub map: &'a Affine,
     pub inverse: Affine,
-    pub faces: &'a mut Vec<Face>,
+    pub faces: &'a mut Faces,
 }
 
 impl FaceList<'_> {
@@ -66,19 +67,8 @@ impl FaceList<'_> {
 
     /// The faces that have an area, turned outwards also where the map mirrors.
     pub fn polyhedron(&mut self, polyhedron: &Polyhedron) {
-        let mirrored = self.map.determinant() < 0.0;
-        for face in polyhedron.faces() {
-            let mut corners: Vec<Vec3> =
-                face.iter().map(|&i| self.map.point(polyhedron.points()[i as usize])).collect();
-            if mirrored {
-                corners.reverse();
-            }
-            if let Some(fit) = FacePlane::fit(&corners) {
-                let plane = Plane { normal: fit.normal, offset: fit.normal.dot(fit.point) };
-                let some = [0, 1, 2, 3].map(|i| corners[i * corners.len() / 4]);
-                self.faces.push(Face::Plane { plane, corners: some });
-            }
-        }
+        let faces = (0..polyhedron.faces().len()).filter_map(|face| facet(polyhedron, self.map, face));
+        faces.for_each(|face| self.faces.push(face));
     }
 
     /// The half-space z >= 0.

@@ -7,10 +7,12 @@
 //! plane is known best; planes within tolerance of an axis are put exactly on it.
 
 use super::face::Face;
+use super::facets::Faces;
 use super::place::Place;
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::primitive::SurfaceRef;
 use crate::surface::{Plane, Quadric, QuadricKind, Surface, Torus};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 /// What joining surfaces did.
@@ -35,27 +37,35 @@ impl CompileReport {
     }
 }
 
+/// So many faces are worth several threads.
+const MANY: usize = 1 << 14;
+
 /// Gives every face a surface; coincident ones the same. Returns the references in the order of `faces`.
 pub(super) fn intern(
-    faces: &[Face],
+    faces: &Faces,
     extent: &Bounds,
     snap: f64,
     surfaces: &mut Vec<Surface>,
 ) -> (Vec<SurfaceRef>, CompileReport) {
-    let mut room = Vec::new();
     // Larger ones first, else as they come: sizes that differ by rounding are the same, and neighbours in the model are
     // neighbours in memory.
-    let place = |(i, face): (usize, &Face)| {
-        let size = face.size(face.samples(&mut room)) as f32;
+    let place = |room: &mut Vec<Vec3>, i: usize| {
+        let size = faces.size(i, room) as f32;
         u64::from(!size.to_bits()) << 32 | i as u64
     };
-    let mut order: Vec<u64> = faces.iter().enumerate().map(place).collect();
+    let mut room = Vec::new();
+    let mut order: Vec<u64> = match faces.len() < MANY {
+        true => (0..faces.len()).map(|i| place(&mut room, i)).collect(),
+        false => (0..faces.len()).into_par_iter().map_init(Vec::new, place).collect(),
+    };
     order.sort_unstable();
+    // Few faces of a mesh share a plane; memory is asked for once.
+    surfaces.reserve(faces.of_meshes());
     let mut interner = Interner::new(extent, snap, surfaces);
     let mut refs = vec![SurfaceRef { surface: 0, flipped: false }; faces.len()];
     for index in order.into_iter().map(|place| place as u32 as usize) {
-        let face = &faces[index];
-        refs[index] = interner.face(face, face.samples(&mut room));
+        let face = faces.get(index);
+        refs[index] = interner.face(&face, face.samples(&mut room));
     }
     (refs, interner.report)
 }
@@ -288,9 +298,15 @@ mod tests {
         Face::Plane { plane: Plane { normal, offset: normal.dot(corners[0]) }, corners }
     }
 
+    fn listed(faces: &[Face]) -> Faces {
+        let mut all = Faces::default();
+        faces.iter().for_each(|face| all.push(face.clone()));
+        all
+    }
+
     fn interned(faces: &[Face], snap: f64) -> (Vec<SurfaceRef>, CompileReport) {
         let extent = Bounds::new(Vec3::splat(-10.0), Vec3::splat(10.0));
-        intern(faces, &extent, snap, &mut Vec::new())
+        intern(&listed(faces), &extent, snap, &mut Vec::new())
     }
 
     #[test]
@@ -343,7 +359,7 @@ mod tests {
         let plane = Plane { normal: -Vec3::Z, offset: 0.1 };
         let extent = Bounds::new(Vec3::new(-1.0 / 3.0, -0.7, -0.3), Vec3::new(0.1, 1.0 / 7.0, 2.9));
         let mut surfaces = Vec::new();
-        let _ = intern(&[Face::Unbounded { plane }], &extent, 0.0, &mut surfaces);
+        let _ = intern(&listed(&[Face::Unbounded { plane }]), &extent, 0.0, &mut surfaces);
         let [Surface::Plane(stored)] = surfaces[..] else { unreachable!("one plane") };
         assert_eq!(stored, Plane { normal: Vec3::Z, offset: -0.1 });
     }

@@ -259,19 +259,14 @@ fn end_operators(open: &mut Vec<(bool, usize, usize)>, at: usize, out: &mut [Ent
 
 /// For every node the box outside which it is neutral to the operator above it, if it is worth being an item.
 fn boxes(catalog: &Catalog, entries: &[Entry], lattice: &Lattice) -> Vec<LatticeBox> {
-    let sides: Vec<[LatticeBox; 2]> = (catalog.surfaces.iter())
-        .map(|surface| {
-            let (inside, outside) = surface.extents();
-            [lattice.around(&inside), lattice.around(&outside)]
-        })
-        .collect();
     // For every node where it may be true, and where it may be false.
     let mut places = vec![[LatticeBox::NONE; 2]; entries.len()];
     let mut boxes = vec![LatticeBox::NONE; entries.len()];
     for at in (0..entries.len()).rev() {
         let is_and = match Word::decode(entries[at].word) {
             Word::Literal { negated, .. } => {
-                let [inside, outside] = sides[entries[at].surface as usize];
+                let (inside, outside) = catalog.surfaces[entries[at].surface as usize].extents();
+                let (inside, outside) = (lattice.around(&inside), lattice.around(&outside));
                 places[at] = if negated { [outside, inside] } else { [inside, outside] };
                 continue;
             }

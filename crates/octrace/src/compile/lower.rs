@@ -2,8 +2,8 @@
 
 use super::copies::{Kind, Operand, reach_of};
 use super::draft::{Draft, Op, Value};
-use super::face::Face;
 use super::faces::FaceList;
+use super::facets::Faces;
 use super::swept::Swept;
 use super::{Leaf, Program};
 use crate::geom::{Affine, Bounds, Vec3};
@@ -36,7 +36,7 @@ impl Lowered {
 #[derive(Default)]
 pub(super) struct Lowering {
     snap: f64,
-    pub faces: Vec<Face>,
+    pub faces: Faces,
     pub meshes: Vec<PendingMesh>,
     pub copies: Vec<PendingCopy>,
     pub literals: Vec<PendingLiteral>,
@@ -204,7 +204,7 @@ impl Lowering {
         self.leaves.push(Leaf { part });
         let first_face = self.faces.len();
         let mut faces = FaceList { map, inverse, faces: &mut self.faces };
-        let mut concave = None;
+        let mut mesh = None;
         match primitive {
             Primitive::Prism { profile, top } => {
                 let whole = self.prism(profile, *top, &Swept { map, inverse, leaf, negated });
@@ -225,19 +225,21 @@ impl Lowering {
             Primitive::HalfSpace => faces.half_space(),
             Primitive::Torus { minor } => faces.torus(TorusKind::Outer, *minor, &Affine::IDENTITY),
             Primitive::Polyhedron(polyhedron) => {
-                faces.polyhedron(polyhedron);
+                let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
+                if !polyhedron.is_round() && polyhedron.is_convex(self.snap.max(1e-12) * size) {
+                    faces.polyhedron(polyhedron);
+                } else {
+                    faces.faces.add_facets(polyhedron, map);
+                    mesh = Some(polyhedron);
+                }
                 if faces.faces.len() == first_face {
                     return Lowered::constant(negated);
-                }
-                let size = Bounds::around(polyhedron.points().iter().copied()).diagonal();
-                if !polyhedron.is_convex(self.snap.max(1e-12) * size) {
-                    concave = Some(polyhedron);
                 }
             }
         }
         let faces = first_face..self.faces.len();
         let first_literal = self.literals.len() as u32;
-        match concave {
+        match mesh {
             Some(polyhedron) => {
                 let mesh = PendingMesh { polyhedron: Arc::clone(polyhedron), map: *map, first_face };
                 self.meshes.push(mesh);

@@ -7,6 +7,7 @@ mod copies;
 mod draft;
 mod face;
 mod faces;
+mod facets;
 mod intern;
 mod items;
 mod known;

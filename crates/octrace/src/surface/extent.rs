@@ -11,7 +11,7 @@ impl Surface {
             Self::Plane(plane) => plane.extents(),
             Self::Quadric(quadric) => (quadric.extent(), Bounds::ALL),
             Self::Torus(torus) => (torus.extent(), Bounds::ALL),
-            Self::Mesh(_) => (Bounds::ALL, Bounds::ALL),
+            Self::Mesh(mesh) => (mesh.extent(), Bounds::ALL),
             Self::Placed(placed) => (placed.bounds, Bounds::ALL),
         }
     }

@@ -8,15 +8,19 @@
 
 mod line;
 mod overlap;
+mod parts;
 mod place;
+mod within;
 
-use super::bvh::{BoxTree, GROWTH_BY_COORDINATES};
+use super::bvh::BoxTree;
 use super::polyhedron::{FacePlane, Polyhedron};
 use crate::geom::{Affine, Bounds, Ray, Vec3};
 use line::Line;
 pub(crate) use line::{TINY, UNCERTAIN};
+pub(crate) use parts::{Facet, MeshPlane, MeshTriangle};
 use place::{adopt, arranged};
 use std::ops::ControlFlow;
+use within::{reach, within};
 
 /// A polyhedron in world space, for which rays can be traced: watertight, with parameters from planes that it may share
 /// with other solids.
@@ -34,40 +38,6 @@ pub struct Mesh {
     slack: f64,
     /// The largest coordinate, by magnitude.
     farthest: f64,
-}
-
-/// A triangle among others that are near it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeshTriangle {
-    /// Counter-clockwise from outside.
-    pub corners: [u32; 3],
-    /// Its number in the order of the polyhedron.
-    pub number: u32,
-}
-
-/// The plane of a surface that a triangle lies in: where it is at hand when a ray is there.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct MeshPlane {
-    pub normal: Vec3,
-    pub offset: f64,
-}
-
-/// A [`SurfaceRef`] in one word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Facet(pub u32);
-
-impl Facet {
-    const FLIPPED: u32 = 1 << 31;
-
-    fn new(surface: SurfaceRef) -> Self {
-        Self(surface.surface | if surface.flipped { Self::FLIPPED } else { 0 })
-    }
-
-    /// What it refers to.
-    #[inline(always)]
-    pub fn surface(self) -> SurfaceRef {
-        SurfaceRef { surface: self.0 & !Self::FLIPPED, flipped: self.0 & Self::FLIPPED != 0 }
-    }
 }
 
 /// Which of the caller's surfaces a face lies in.
@@ -142,21 +112,15 @@ impl Mesh {
         Some(Self { points, triangles, tree, planes: Vec::new(), facets, slack, farthest })
     }
 
-    /// Takes the planes of the surfaces, by their numbers, to be at hand where [`plane`](Self::plane) asks for them.
-    pub(crate) fn keep_planes(&mut self, plane_of: impl Fn(u32) -> MeshPlane) {
-        let planes = self.triangles.iter().map(|triangle| plane_of(self.facet(triangle.number).surface().surface));
-        self.planes = planes.collect();
-    }
-
-    /// The plane of the surface that the triangle at a place of the tree lies in.
-    #[inline(always)]
-    pub(crate) fn plane(&self, place: usize) -> MeshPlane {
-        self.planes[place]
-    }
-
     /// The smallest axis-aligned box around the mesh.
     pub fn bounds(&self) -> Bounds {
         self.tree.bounds()
+    }
+
+    /// A box that holds everything that may be taken to be inside.
+    pub(crate) fn extent(&self) -> Bounds {
+        let (Bounds { min, max }, off) = (self.bounds(), Vec3::splat(2.0 * self.slack));
+        Bounds::new(min - off, max + off)
     }
 
     /// How many triangles there are.
@@ -170,44 +134,6 @@ impl Mesh {
     /// If there is no such triangle.
     pub fn surface(&self, triangle: u32) -> SurfaceRef {
         self.facets[triangle as usize].surface()
-    }
-
-    /// The surface that a triangle lies in.
-    #[inline(always)]
-    pub(crate) fn facet(&self, triangle: u32) -> Facet {
-        self.facets[triangle as usize]
-    }
-
-    /// The tree over the triangles, its boxes grown by the slack.
-    pub(crate) fn tree(&self) -> &BoxTree {
-        &self.tree
-    }
-
-    /// The triangles in the order of the tree's leaves.
-    pub(crate) fn triangles(&self) -> &[MeshTriangle] {
-        &self.triangles
-    }
-
-    /// The corners of a triangle.
-    #[inline(always)]
-    pub(crate) fn corners(&self, triangle: &MeshTriangle) -> [Vec3; 3] {
-        triangle.corners.map(|i| self.points[i as usize])
-    }
-
-    /// How far a surface may lie off the face that it stands for.
-    pub(crate) fn slack(&self) -> f64 {
-        self.slack
-    }
-
-    /// The largest coordinate of rays' origins for which the boxes of the tree are large enough to have no line through a
-    /// triangle pass them by.
-    pub(crate) fn reach(&self) -> f64 {
-        GROWTH_BY_COORDINATES / (2.0 * line::ROOM) * self.farthest
-    }
-
-    /// Whether the line passes through a triangle, and if so, whether it goes in.
-    pub(crate) fn crosses(&self, ray: &Ray, triangle: &MeshTriangle) -> Option<bool> {
-        Line::new(ray, self.farthest).crosses(self.corners(triangle))
     }
 
     /// Replaces `out` by all crossings of the whole line, `t` from -inf to inf, in ascending order; those at one `t`
@@ -328,44 +254,6 @@ impl Mesh {
         );
         outcome.is_break()
     }
-}
-
-/// The parameters for which the line is in the box grown by `slack`, which it is known to pass.
-fn reach(ray: &Ray, bounds: &Bounds, slack: f64) -> (f64, f64) {
-    let slab = |axis: usize| {
-        let (o, d) = (ray.origin[axis], ray.direction[axis]);
-        let (a, b) = ((bounds.min[axis] - slack - o) / d, (bounds.max[axis] + slack - o) / d);
-        (a.min(b), a.max(b))
-    };
-    let along = ray.direction.largest_axis();
-    let (mut low, mut high) = slab(along);
-    for (a, b) in [(along + 1) % 3, (along + 2) % 3].map(slab) {
-        // Rounding may put a line beside the box, though only just. The interval never becomes empty, nor infinite.
-        // Along a line parallel to the axis' planes these are infinite or NaN.
-        if a.is_finite() && b.is_finite() {
-            low = low.max(a).min(high);
-            high = high.min(b).max(low);
-        }
-    }
-    (low, high)
-}
-
-/// What is left of an interval of parameters between the triangle's edges, moved outwards by `slack`. For a line that all
-/// but lies in the triangle's plane its box does not tell: the line may leave the triangle and still be in the box.
-fn within(ray: &Ray, corners: [Vec3; 3], slack: f64, (mut low, mut high): (f64, f64)) -> (f64, f64) {
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    for i in 0..3 {
-        // Positive on the triangle's side of the edge.
-        let inwards = normal.cross(corners[(i + 1) % 3] - corners[i]);
-        let slope = inwards.dot(ray.direction);
-        let t = -(inwards.dot(ray.origin - corners[i]) + slack * inwards.length()) / slope;
-        if t.is_finite() && slope > 0.0 {
-            low = low.max(t).min(high);
-        } else if t.is_finite() {
-            high = high.min(t).max(low);
-        }
-    }
-    (low, high)
 }
 
 #[cfg(test)]

@@ -277,3 +277,42 @@ fn toggles_are_found_again_by_their_parameter() {
     }
     assert!(found > 1000, "{found}");
 }
+
+/// A globe of so many rings, each twice as many segments long; corners are repeated for every face.
+fn globe(rings: u32) -> Polyhedron {
+    let point = |u: u32, v: u32| {
+        let (sv, cv) = crate::geom::sin_cos_deg(f64::from(v) * 180.0 / f64::from(rings));
+        let (su, cu) = crate::geom::sin_cos_deg(f64::from(u % (2 * rings)) * 180.0 / f64::from(rings));
+        if v == 0 || v == rings { Vec3::Z * cv } else { Vec3::new(sv * cu, sv * su, cv) }
+    };
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for (u, v) in (0..2 * rings).flat_map(|u| (0..rings).map(move |v| (u, v))) {
+        let first = points.len() as u32;
+        points.extend([point(u, v), point(u, v + 1), point(u + 1, v + 1), point(u + 1, v)]);
+        faces.push((first..first + 4).collect());
+    }
+    Polyhedron::new(points, faces).unwrap()
+}
+
+/// How much a line looks at tells without a clock how long it takes: a few boxes for each level of the tree, a few triangles.
+#[test]
+fn lines_look_at_little_of_a_mesh() {
+    let (mesh, _) = place(&globe(70), &Affine::IDENTITY);
+    assert_eq!(mesh.triangle_count(), 2 * 70 * (2 * 70 - 2));
+    let (mut boxes, mut triangles, mut lines) = (0, 0, 0);
+    for (y, z) in (0..40).flat_map(|y| (0..40).map(move |z| (f64::from(y), f64::from(z)))) {
+        let ray = Ray::new([-3.0, y / 20.0 - 0.97, z / 20.0 - 0.97], [1.0, 0.013, 0.021]);
+        let line = Line::new(&ray, mesh.farthest);
+        let enter = |bounds: &Bounds| {
+            boxes += 1;
+            line.may_touch(bounds)
+        };
+        let _ = mesh.tree.visit::<()>(enter, |_| {
+            triangles += 1;
+            ControlFlow::Continue(())
+        });
+        lines += 1;
+    }
+    let (boxes, triangles) = (f64::from(boxes) / f64::from(lines), f64::from(triangles) / f64::from(lines));
+    assert!(boxes < 90.0 && triangles < 16.0, "{boxes} boxes and {triangles} triangles");
+}

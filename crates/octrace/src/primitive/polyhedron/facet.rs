@@ -53,12 +53,17 @@ pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> 
     let mut cutter = Cutter::default();
     let mut coordinates: Vec<Vec3> = Vec::new();
     for Face { corners, .. } in faces {
+        if let [a, b, c] = corners[..] {
+            triangles.push(Triangle { corners: [a, b, c], face: planar.len() as u32 });
+            planar.push(corners);
+            continue;
+        }
         coordinates.clear();
         coordinates.extend(corners.iter().map(|&i| points[i as usize]));
         let plane = FacePlane::fit(&coordinates);
         let warped = |p: &FacePlane| coordinates.iter().any(|&q| p.distance(q).abs() > tolerance);
         let pieces = cutter.cut(&corners, &coordinates, plane);
-        if corners.len() > 3 && plane.is_some_and(|p| warped(&p)) {
+        if plane.is_some_and(|p| warped(&p)) {
             for corners in pieces {
                 triangles.push(Triangle { corners, face: planar.len() as u32 });
                 planar.push(corners.to_vec());
@@ -86,9 +91,6 @@ impl Default for Cutter {
 impl Cutter {
     /// Triangles that cover the polygon, turned as it is; together they have *exactly* its edges, as chains.
     fn cut(&mut self, corners: &[u32], coordinates: &[Vec3], plane: Option<FacePlane>) -> Vec<[u32; 3]> {
-        if let &[a, b, c] = corners {
-            return vec![[a, b, c]];
-        }
         let mut pieces = Vec::with_capacity(corners.len() - 2);
         if let Some(plane) = plane {
             let flat = flatten(coordinates, plane.normal);

@@ -200,3 +200,19 @@ fn a_fine_saddle_is_not_convex_though_each_edge_nearly_is() {
     assert!(!drum.is_convex(1e-4));
     assert!(drum.is_convex(0.5));
 }
+
+/// A prism of height 1 over a regular polygon.
+fn column(sides: u32) -> Polyhedron {
+    let corner = |i: u32| {
+        let (sin, cos) = crate::geom::sin_cos_deg(360.0 * f64::from(i) / f64::from(sides));
+        [cos, sin]
+    };
+    prism(&(0..sides).map(corner).collect::<Vec<_>>())
+}
+
+#[test]
+fn columns_of_many_sides_are_round() {
+    assert!([3, 40, 62, 64].iter().all(|&sides| !column(sides).is_round()));
+    assert!([66, 200, 1200].iter().all(|&sides| column(sides).is_round()));
+    assert!(column(200).is_convex(1e-12));
+}

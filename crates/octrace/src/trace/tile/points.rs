@@ -26,7 +26,8 @@ pub(crate) fn points<I: Isa>(tracer: &Tracer, rays: &EightRays, hits: &EightHits
     let reach = abs::<I>(o) + abs::<I>(d * t);
     let mut normal = Vector::from_one(Vec3::ZERO);
     let mut rounding = F64s::zero();
-    let mut unusual = 0;
+    let (mut unusual, mut facets) = (0, 0);
+    let (mut normals, mut offsets) = ([Stored([1.0; LANES]); 3], Stored([0.0; LANES]));
     let mut left = hits.met;
     while left != 0 {
         // All lanes that meet the same surface.
@@ -35,6 +36,16 @@ pub(crate) fn points<I: Isa>(tracer: &Tracer, rays: &EightRays, hits: &EightHits
         left &= !same;
         let (surface, offset) = tracer.catalog.surface(surface);
         let (unit, off, usual) = match surface {
+            Surface::Plane(plane) if same & (same - 1) == 0 => {
+                // As in meshes: what each lane meets by itself is looked at for all of them together.
+                let lane = same.trailing_zeros() as usize & (LANES - 1);
+                for (axis, normals) in normals.iter_mut().enumerate() {
+                    normals.0[lane] = plane.normal[axis];
+                }
+                offsets.0[lane] = plane.offset.abs();
+                facets |= same;
+                continue;
+            }
             Surface::Plane(plane) => match plane.normal.normalized() {
                 Some(unit) => {
                     let off = Vector::from_one(plane.normal.abs()).dot(reach) + F64s::splat(plane.offset.abs());
@@ -53,6 +64,14 @@ pub(crate) fn points<I: Isa>(tracer: &Tracer, rays: &EightRays, hits: &EightHits
         let same = Mask::from_bits(same);
         normal = Vector::select(same, unit, normal);
         rounding = same.select(off, rounding);
+    }
+    if facets != 0 {
+        let raw = Vector::<F64s<I>>::load(&normals);
+        let (unit, usual) = raw.normalized();
+        unusual |= facets & !usual.bits();
+        let facets = Mask::from_bits(facets);
+        normal = Vector::select(facets, unit, normal);
+        rounding = facets.select(abs::<I>(raw).dot(reach) + F64s::load(&offsets), rounding);
     }
     normal = Vector::select(Mask::from_bits(hits.flipped), -normal, normal);
     if unusual != 0 {
@@ -99,8 +118,8 @@ fn set_unusual(
     for lane in (0..LANES).filter(|lane| lanes >> lane & 1 != 0) {
         let Some((_, hit)) = hits.hit(lane) else { continue };
         let point = tracer.surface_point(&rays.ray(lane), &hit);
-        for axis in 0..3 {
-            normal[axis].0[lane] = point.normal[axis];
+        for (axis, normal) in normal.iter_mut().enumerate() {
+            normal.0[lane] = point.normal[axis];
         }
         rounding.0[lane] = point.rounding;
     }
