@@ -175,3 +175,12 @@ fn hollows_that_overlap() {
     compare(std::slice::from_ref(&open), from([12.0, 1.0, 3.0], [2.0; 3], 30.0));
     compare(&[open], along_x([2.0; 3], 5.0));
 }
+
+/// Tori are crossed one ray at a time, meshes beside them are not.
+#[test]
+fn meshes_and_tori() {
+    let torus = || Solid::primitive(octrace::Primitive::Torus { minor: 0.4 }).scale([0.8; 3]);
+    compare(&[bumpy(16) - torus()], from([3.0, -4.0, 2.0], [0.0; 3], 25.0));
+    compare(&[torus() - bumpy(16).scale([0.8; 3])], from([3.0, -4.0, 2.0], [0.0; 3], 25.0));
+    compare(&[plates(11) & torus().rotate([0.0, 90.0, 0.0]).translate([0.5; 3])], along_x([0.5; 3], 1.1));
+}

@@ -18,9 +18,17 @@ pub(crate) struct Roots {
     rows: Vec<Row>,
     params: Vec<f64>,
     /// Meshes and whole solids that this ray has met already, and where it crosses them: they reach through many cells.
-    wholes: Vec<(u32, Range<usize>)>,
+    wholes: Vec<Whole>,
     whole_params: Vec<f64>,
     toggles: Vec<Crossing>,
+}
+
+/// A mesh or a whole solid, and where a ray crosses it.
+#[derive(Debug)]
+struct Whole {
+    surface: u32,
+    starts_inside: bool,
+    params: Range<usize>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +54,13 @@ impl Roots {
         self.whole_params.clear();
     }
 
+    /// Takes note of where the ray crosses a mesh: as far as programs will be asked about.
+    pub fn know(&mut self, surface: u32, starts_inside: bool, params: impl Iterator<Item = f64>) {
+        let start = self.whole_params.len();
+        self.whole_params.extend(params);
+        self.wholes.push(Whole { surface, starts_inside, params: start..self.whole_params.len() });
+    }
+
     /// Crosses the ray, the same as since [`begin_ray`](Self::begin_ray), with every literal of the program.
     pub fn solve(&mut self, catalog: &Catalog, words: &[u32], ray: &Ray) {
         self.rows.clear();
@@ -66,7 +81,7 @@ impl Roots {
         if !matches!(literal.surface, Surface::Mesh(_) | Surface::Placed(_)) {
             return literal.surface.crossings(&catalog.surfaces, ray, &mut self.params);
         }
-        let known = self.wholes.iter().position(|&(known, _)| known == surface).unwrap_or_else(|| {
+        let known = self.wholes.iter().position(|known| known.surface == surface).unwrap_or_else(|| {
             let params = &mut self.whole_params;
             let start = params.len();
             match literal.surface {
@@ -77,12 +92,13 @@ impl Roots {
                 }
                 _ => {}
             }
-            self.wholes.push((surface, start..params.len()));
+            // What is bounded is met from outside.
+            self.wholes.push(Whole { surface, starts_inside: false, params: start..params.len() });
             self.wholes.len() - 1
         });
-        self.params.extend_from_slice(&self.whole_params[self.wholes[known].1.clone()]);
-        // What is bounded is met from outside.
-        false
+        let Whole { starts_inside, params, .. } = &self.wholes[known];
+        self.params.extend_from_slice(&self.whole_params[params.clone()]);
+        *starts_inside
     }
 
     /// The crossings with the literal at a place of the program.

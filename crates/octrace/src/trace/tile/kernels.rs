@@ -153,7 +153,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let rays = self.packets[number].rays::<I, O>(self.beam.eye, self.scenery.offset);
         let origin = rays.origin.map(|v| v.lanes().stored());
         let packet = &mut self.packets[number];
-        packet.one_by_one(&self.scenery, words, here.bits(), (&origin, &t_in, &t_out), self.scratch);
+        let (stretch, meshes) = ((&origin, &t_in, &t_out), self.meshes.of(number));
+        packet.one_by_one(&self.scenery, words, here.bits(), stretch, meshes, self.scratch);
     }
 }
 
@@ -246,7 +247,7 @@ impl<I: Isa, O: Origins<I>> Kernel for OneByOne<'_, '_, '_, I, O> {
         for number in bits_of(self.packets) {
             let (here, stretch) = self.walk.crossing(number, self.cube, self.depths);
             if here.any() {
-                self.walk.one_by_one(self.words, number, here, stretch);
+                self.walk.by_scalar_code(self.words, number, here, stretch);
             }
         }
     }

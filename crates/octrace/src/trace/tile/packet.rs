@@ -4,6 +4,7 @@ use super::crossing::Rays;
 use super::eight::EightRays;
 use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
 use super::layout::{PACKET_PX, corner_of};
+use super::mesh::Toggles;
 use super::walk::Scenery;
 use crate::compile::Word;
 use crate::geom::{Ray, Vec3};
@@ -212,13 +213,14 @@ impl Packet {
         self.open &= !rays;
     }
 
-    /// A stretch with a program that lanes cannot evaluate.
+    /// A stretch with a program that lanes cannot evaluate. Of `meshes` it is known how the rays come into them.
     pub fn one_by_one(
         &mut self,
         scenery: &Scenery,
         words: &[u32],
         rays: u8,
         (origin, t_in, t_out): (&Vector<Stored>, &Stored, &Stored),
+        meshes: &[Toggles],
         scratch: &mut Scratch,
     ) {
         for lane in (0..LANES).filter(|lane| rays >> lane & 1 != 0) {
@@ -235,6 +237,9 @@ impl Packet {
                 continue;
             }
             roots.begin_ray();
+            for toggles in meshes {
+                toggles.tell(scenery.literal_shift, lane, at(t_out), roots);
+            }
             roots.solve(scenery.catalog, words, &ray);
             scratch.counters.surface_tests += words.len() as u64;
             let t = roots.next(words, at(t_in), scenery.wanted);

@@ -8,7 +8,7 @@ use crate::trace::tile::kernels::{Cube, Stretch, bits_of};
 use crate::trace::tile::lanes::{F64s, Isa, Kernel, LANES, Mask};
 use crate::trace::tile::packet::{Origins, Packet};
 use crate::trace::tile::program::Solving;
-use crate::trace::tile::walk::Walk;
+use crate::trace::tile::walk::{Scenery, Walk};
 use std::sync::Arc;
 
 /// A leaf whose surfaces are meshes, planes and quadrics.
@@ -32,13 +32,11 @@ impl<I: Isa, O: Origins<I>> Kernel for Meshed<'_, '_, '_, I, O> {
             }
             let before = F64s::<I>::load(&walk.packets[number].t);
             match *words {
-                _ if several => walk.one_by_one(words, number, here, stretch),
+                _ if several => walk.by_scalar_code(words, number, here, stretch),
                 [word] => walk.lone_mesh(word, number, here, stretch),
                 _ => walk.with_meshes(words, number, here, stretch),
             }
-            let packet = &mut walk.packets[number];
-            let met = F64s::load(&packet.t).lt(before);
-            walk.meshes.note_facets(walk.scenery.catalog, packet, number, met.bits(), walk.scenery.literal_shift);
+            walk.note_facets(number, before);
         }
     }
 }
@@ -53,21 +51,44 @@ pub(super) fn mesh_of(catalog: &Catalog, word: u32) -> Option<(&Arc<Mesh>, u32)>
     }
 }
 
-impl super::MeshMemo {
-    /// Notes which of a mesh's faces some rays met that met one just now.
-    fn note_facets(&self, catalog: &Catalog, packet: &mut Packet, number: usize, lanes: u8, literal_shift: u32) {
-        let mut left = lanes;
+impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
+    /// Notes the faces of meshes that rays of a packet met since they had met things at `before`.
+    #[inline(always)]
+    fn note_facets(&mut self, number: usize, before: F64s<I>) {
+        let Scenery { catalog, literal_shift, .. } = self.scenery;
+        let packet = &mut self.packets[number];
+        let mut left = F64s::load(&packet.t).lt(before).bits();
         while left != 0 {
             let lane = left.trailing_zeros() as usize & (LANES - 1);
             left &= left - 1;
             let Some((_, surface)) = mesh_of(catalog, packet.words[lane].wrapping_sub(literal_shift)) else { continue };
-            let key = Key { surface, literal_shift };
-            packet.facets[lane] = self.facet(number, key, lane, packet.t.0[lane]).unwrap_or(Packet::UNKNOWN);
+            let facet = self.meshes.facet(number, Key { surface, literal_shift }, lane, packet.t.0[lane]);
+            packet.facets[lane] = facet.unwrap_or(Packet::UNKNOWN);
         }
     }
-}
 
-impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
+    /// A stretch with a program that needs scalar code; how the rays come into meshes is found out in lanes.
+    #[inline(always)]
+    pub(in super::super) fn by_scalar_code(
+        &mut self,
+        words: &[u32],
+        number: usize,
+        here: Mask<I>,
+        stretch: Stretch<I>,
+    ) {
+        let before = F64s::<I>::load(&self.packets[number].t);
+        let catalog = self.scenery.catalog;
+        let mut some = false;
+        for &word in words.iter().filter(|&&word| mesh_of(catalog, word).is_some()).take(MESHES) {
+            self.learn_mesh(word, number, here.bits(), false);
+            some = true;
+        }
+        self.one_by_one(words, number, here, stretch);
+        if some {
+            self.note_facets(number, before);
+        }
+    }
+
     /// Has the toggles of some of a packet's rays found; says where they are kept.
     #[inline(always)]
     fn learn_mesh(&mut self, word: u32, number: usize, lanes: u8, only_first: bool) -> usize {

@@ -21,6 +21,7 @@ use crate::compile::{Catalog, Word};
 use crate::geom::Hit;
 use crate::primitive::{Facet, Mesh, SurfaceRef};
 use crate::surface::Surface;
+use crate::trace::roots::Roots;
 use all::All;
 use first::First;
 use search::{search, start_outside};
@@ -105,6 +106,15 @@ impl Toggles {
         (Crossed { starts_inside, a, b }, c)
     }
 
+    /// Tells of the mesh, if enough is known for parameters up to `end`.
+    pub fn tell(&self, literal_shift: u32, lane: usize, end: f64, roots: &mut Roots) {
+        let is_known = self.lanes & !self.odd & 1 << lane != 0 && self.key.literal_shift == literal_shift;
+        if is_known && self.until.0[lane] >= end {
+            let toggles = self.t.iter().map(|t| t.0[lane]).filter(|t| t.is_finite());
+            roots.know(self.key.surface, self.starts_inside >> lane & 1 != 0, toggles);
+        }
+    }
+
     /// The facet at a toggle.
     fn facet_at(&self, lane: usize, t: f64) -> Option<u32> {
         (0..KEPT).find(|&i| self.t[i].0[lane] == t).map(|i| self.facets[i][lane])
@@ -152,6 +162,11 @@ impl MeshMemo {
         for known in self.known.iter_mut().flatten() {
             known.lanes = 0;
         }
+    }
+
+    /// What is known of a packet.
+    pub fn of(&self, number: usize) -> &[Toggles] {
+        &self.known[number]
     }
 
     /// What is known of a packet and a mesh.
