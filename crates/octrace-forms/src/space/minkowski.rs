@@ -10,20 +10,23 @@
 //! Prisms, blocks and cylinders of one direction, also with holes from end to end, have the sum of their outlines: exact with
 //! a cylinder of that direction, with a ball, or where outlines are polygons.
 //!
+//! Bodies of revolution about parallel axes have the sum of their sections: exact with a ball, or where all is straight.
+//!
 //! Other convex pieces are replaced by polyhedra within the tolerance. What has no convex pieces becomes a mesh, with
 //! fewer corners on round things the larger it is; a sum of two such solids must be small.
 
 use super::SpaceError;
 use super::convex::convex;
-use super::hull::{STRIPS, hull_of, square};
+use super::hull::hull_of;
 use super::leaves::{Leaf, leaves};
 use super::mesh::{TriangleMesh, manifold, union};
 use super::pieces::{is_convex_primitive, pieces};
-use super::round::{Extremes, Fit, Round};
+use super::round::{Extremes, Fit};
 use super::slab_sum::sum_of_slabs;
+use super::turned_sum::sum_of_turned;
 use crate::Tolerance;
 use manifold_rust::manifold::Manifold;
-use octrace::{Polyhedron, Solid, Vec3};
+use octrace::{Polyhedron, Solid};
 
 /// So many pairs of pieces have their sums made at most; with more, operands become meshes.
 const MOST_PAIRS: usize = 2_000;
@@ -45,6 +48,9 @@ struct Operand {
 /// # Errors
 /// If an operand is unbounded, has no boundary that can be found, or if the sum is too large: see [`SpaceError`].
 pub fn minkowski(solids: &[Solid], tolerance: Tolerance) -> Result<Solid, SpaceError> {
+    if let Some(sum) = sum_of_turned(solids, tolerance)? {
+        return Ok(sum);
+    }
     if let Some(sum) = sum_of_slabs(solids, tolerance)? {
         return Ok(sum);
     }
@@ -133,10 +139,10 @@ fn corners(polyhedron: &Polyhedron) -> Extremes {
 fn swept(mesh: &Manifold, piece: &Extremes, tolerance: Tolerance) -> Result<Manifold, SpaceError> {
     let allowed = (MOST_SWEPT / mesh.num_tri().max(1)).max(COARSEST);
     let mut deviation = tolerance.relative * piece.size();
-    let mut points = piece.sampled(deviation, Fit::Inside);
+    let mut points = piece.sampled(deviation, Fit::Even);
     while points.len() > allowed && deviation < piece.size() {
         deviation *= 2.0;
-        points = piece.sampled(deviation, Fit::Inside);
+        points = piece.sampled(deviation, Fit::Even);
     }
     if points.len().saturating_mul(mesh.num_tri()) > 8 * MOST_SWEPT {
         return Err(SpaceError::TooMuch);
@@ -148,78 +154,10 @@ fn swept(mesh: &Manifold, piece: &Extremes, tolerance: Tolerance) -> Result<Mani
     Ok(dilated.unwrap_or_else(|| mesh.minkowski_sum(&tool)))
 }
 
-impl Extremes {
-    /// The sum of two convex things.
-    fn plus(&self, other: &Self, tolerance: Tolerance) -> Self {
-        let mut sum = Self::default();
-        for &a in &self.points {
-            sum.points.extend(other.points.iter().map(|&b| a + b));
-            sum.rounds.extend(other.rounds.iter().map(|round| round.moved(a)));
-        }
-        for a in &self.rounds {
-            sum.rounds.extend(other.points.iter().map(|&b| a.moved(b)));
-            for b in &other.rounds {
-                match a.plus(b) {
-                    Some(round) => sum.rounds.push(round),
-                    None => return self.with_corners(tolerance).plus(&other.with_corners(tolerance), tolerance),
-                }
-            }
-        }
-        sum
-    }
-
-    /// The same with corners only, within the tolerance.
-    fn with_corners(&self, tolerance: Tolerance) -> Self {
-        let (deviation, mut points) = (STRIPS * tolerance.relative * self.size(), self.points.clone());
-        self.rounds.iter().for_each(|round| round.points_on(deviation, &mut points));
-        Self { points: convex(&points).map_or(points, |p| p.points().to_vec()), rounds: Vec::new() }
-    }
-}
-
-impl Round {
-    fn moved(self, by: Vec3) -> Self {
-        let mut moved = self;
-        match &mut moved {
-            Self::Ellipse { center, .. } | Self::Ellipsoid { center, .. } | Self::Ring { center, .. } => {
-                *center += by;
-            }
-        }
-        moved
-    }
-
-    /// The sum, where it is of one of these kinds.
-    fn plus(&self, other: &Self) -> Option<Self> {
-        let ball = |&[u, v, w]: &[Vec3; 3]| (square(u, v) && square(v, w) && square(u, w)).then(|| u.length());
-        match (self, other) {
-            (Self::Ellipsoid { center: a, axes: u }, Self::Ellipsoid { center: b, axes: v }) => {
-                let larger = 1.0 + ball(v)? / ball(u)?;
-                Some(Self::Ellipsoid { center: *a + *b, axes: u.map(|axis| axis * larger) })
-            }
-            (Self::Ellipse { center: a, axes: u }, Self::Ellipse { center: b, axes: v }) => {
-                let (n, m) = (u[0].cross(u[1]).normalized()?, v[0].cross(v[1]).normalized()?);
-                let parallel = n.cross(m).length() <= 1e-5;
-                let larger = 1.0 + v[0].length() / u[0].length();
-                (parallel && square(u[0], u[1]) && square(v[0], v[1]))
-                    .then(|| Self::Ellipse { center: *a + *b, axes: u.map(|axis| axis * larger) })
-            }
-            (Self::Ellipse { center: a, axes: [u, v] }, Self::Ellipsoid { center: b, axes }) => {
-                let minor = ball(axes)? / u.length();
-                let axis = u.cross(*v).normalized()? * u.length();
-                square(*u, *v).then_some(Self::Ring { center: *a + *b, axes: [*u, *v, axis], minor })
-            }
-            (Self::Ring { center: a, axes: [u, v, w], minor }, Self::Ellipsoid { center: b, axes }) => {
-                let more = ball(axes)? / ball(&[*u, *v, *w])?;
-                Some(Self::Ring { center: *a + *b, axes: [*u, *v, *w], minor: minor + more })
-            }
-            (Self::Ellipsoid { .. }, Self::Ellipse { .. } | Self::Ring { .. }) => other.plus(self),
-            _ => None,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use octrace::Vec3;
     use octrace::exec::Exec;
     use octrace::query::{MeasureOptions, measure};
     use octrace::{Tracer, TracerOptions};

@@ -20,7 +20,9 @@ mod section;
 mod shadow;
 mod slab;
 mod slab_sum;
+mod sums;
 mod swept;
+mod turned_sum;
 
 pub use bounds::{bounds, resize, tight_bounds};
 pub use hull::{hull, hull_with_corners};

@@ -5,12 +5,18 @@
 //! edges, cylinders and parts of rings, and of balls at the corners.
 
 use super::SpaceError;
-use super::frusta::{across, frustum};
+use super::frusta::frustum;
 use super::slab::{Slab, prism};
 use super::swept::{Walk, walk};
-use crate::plane::Offset;
-use octrace::{Affine, Curve, Primitive, Solid, Vec2, Vec3};
-use std::f64::consts::{PI, TAU};
+use crate::plane::{Offset, Outline};
+use octrace::{Contour, Curve, Edge, Primitive, Solid, Vec2, Vec3};
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+/// Rings are cut to a sector that is wider than their tubes by this factor.
+const WIDER: f64 = 1.0625;
+
+/// Sectors have corners so close at least (radians).
+const STEP: f64 = FRAC_PI_4;
 
 /// Edges that meet at a smaller angle (sine) meet smoothly: files have six digits.
 const SMOOTH: f64 = 1e-5;
@@ -54,19 +60,37 @@ fn tube(edge: &Walk, height: f64, radius: f64) -> Solid {
     if ahead.abs() >= TAU {
         return ring;
     }
-    let (start, end) = if ahead > 0.0 { (edge.from, edge.to) } else { (edge.to, edge.from) };
-    let left_of = |p: Vec2, sign: f64| {
-        let side = p - center;
-        half_space(at(center), Vec3::new(-side.y, side.x, 0.0) * sign)
-    };
-    let [after, before] = [left_of(start, 1.0), left_of(end, -1.0)];
-    ring & if ahead.abs() <= PI { after & before } else { after + before }
+    let sector = sector(edge, center, [(distance - WIDER * radius).max(0.0), distance + WIDER * radius]);
+    ring & prism(Outline { contours: vec![sector] }, height - WIDER * radius, height + WIDER * radius)
 }
 
-/// What is on the side of a point to which a direction points.
-fn half_space(point: Vec3, inward: Vec3) -> Solid {
-    let Some(w) = inward.normalized() else { return Solid::empty() };
-    let [u, v] = across(w);
-    let row = |axis: usize| Vec3::new(u[axis], v[axis], w[axis]);
-    Solid::half_space().transform(Affine { rows: [row(0), row(1), row(2)], translation: point })
+/// A polygon that has the arc's directions from its centre, and distances between two at least.
+fn sector(arc: &Walk, center: Vec2, [inner, outer]: [f64; 2]) -> Contour {
+    let Some((start, ahead)) = arc.sweep() else { return Vec::new() };
+    let steps = (ahead.abs() / STEP).ceil().max(1.0);
+    let step = ahead / steps;
+    let toward = |at: f64| match at {
+        // Where the arc meets others, planes have to be the same.
+        0.0 => unit(arc.from - center),
+        end if end == steps => unit(arc.to - center),
+        at => {
+            let (sin, cos) = libm::sincos(start + step * at);
+            Vec2::new(cos, sin)
+        }
+    };
+    let stops = (0..=steps as u32).map(f64::from);
+    let mut corners: Vec<Vec2> = stops.clone().rev().map(|at| center + toward(at) * inner).collect();
+    if inner == 0.0 {
+        corners.truncate(1);
+    }
+    corners.push(center + toward(0.0) * outer);
+    // The tangents of the outer circle meet halfway.
+    let farther = outer / libm::cos(0.5 * step);
+    corners.extend(stops.take(steps as usize).map(|at| center + toward(at + 0.5) * farther));
+    corners.push(center + toward(steps) * outer);
+    corners.into_iter().map(|from| Edge { from, curve: Curve::Line }).collect()
+}
+
+fn unit(v: Vec2) -> Vec2 {
+    v * (1.0 / v.dot(v).sqrt())
 }

@@ -70,6 +70,7 @@ fn as_ball(solid: &Solid) -> Option<(Vec3, f64)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::bounds;
     use super::super::hull::check_leaks;
     use super::super::minkowski;
     use super::*;
@@ -91,6 +92,11 @@ mod tests {
             let off = (measures.volume - expected).abs();
             assert!(off <= measures.volume_error + 1e-6 * expected, "{measures:?} is not {expected}");
             check_leaks(&sum);
+            // Pictures are framed by this.
+            if angles == [0.0; 3] {
+                let (loose, tight) = (bounds(&sum).diagonal(), measures.bbox.diagonal());
+                assert!(loose < 1.1 * tight, "{loose} is much more than {tight}");
+            }
         }
     }
 

@@ -8,6 +8,11 @@ fn disc(center: [f64; 3], [a, b]: [[f64; 3]; 2]) -> Round {
     Round::Ellipse { center: center.into(), axes: [a.into(), b.into()] }
 }
 
+/// How far a thing reaches in a direction that is no axis.
+fn reach(thing: &Thing, direction: Vec3) -> f64 {
+    thing.farthest(direction).map_or(f64::NEG_INFINITY, |point| point.dot(direction))
+}
+
 /// How many primitives of a kind are in a union.
 fn count(solid: &Solid, is: impl Fn(&Primitive) -> bool) -> usize {
     leaves(std::slice::from_ref(solid)).iter().filter(|(_, leaf)| matches!(leaf, Leaf::Primitive(p) if is(p))).count()
@@ -75,7 +80,7 @@ fn mixed_things_have_the_hull_of_the_definition() {
         }
         let mut things: Vec<Thing> = extremes.rounds.iter().copied().map(Thing::Round).collect();
         things.extend(extremes.points.iter().copied().map(Thing::Corner));
-        let support = |d: Vec3| things.iter().map(|thing| thing.reach(d)).fold(f64::NEG_INFINITY, f64::max);
+        let support = |d: Vec3| things.iter().map(|thing| reach(thing, d)).fold(f64::NEG_INFINITY, f64::max);
         check_points(&hull_of(extremes, Tolerance::default()), &support, &mut random);
     }
 }

@@ -33,21 +33,6 @@ impl Thing {
             Self::Round(Round::Ring { center, axes, minor }) => *center + of(&axes[..2])? + of(axes)? * *minor,
         })
     }
-
-    /// How far it reaches in a direction.
-    pub fn reach(&self, direction: Vec3) -> f64 {
-        match (self.farthest(direction), self) {
-            (Some(point), _) => point.dot(direction),
-            // The whole of it is as far as its middle; of a ring the tube adds its width.
-            (
-                None,
-                Self::Corner(center) | Self::Round(Round::Ellipse { center, .. } | Round::Ellipsoid { center, .. }),
-            ) => center.dot(direction),
-            (None, Self::Round(Round::Ring { center, axes, minor })) => {
-                center.dot(direction) + axes[2].dot(direction).abs() * minor
-            }
-        }
-    }
 }
 
 /// A plane that touches things, by its normal of length one and a point on each.
@@ -104,7 +89,6 @@ mod tests {
         assert!((found.normal - Vec3::Z).length() < 1e-9, "{found:?}");
         let disc = Thing::Round(Round::Ellipse { center: Vec3::ZERO, axes: [Vec3::X, Vec3::Y] });
         assert!(disc.farthest(Vec3::Z).is_none());
-        assert_eq!(disc.reach(Vec3::Z), 0.0);
         assert_eq!(disc.farthest(Vec3::new(2.0, 0.0, 1.0)).unwrap(), Vec3::X);
     }
 }
