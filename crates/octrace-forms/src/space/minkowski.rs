@@ -7,7 +7,7 @@
 //!   plate with rounded edges;
 //! - circles in parallel planes, balls and balls, a circle or a ring and a ball.
 //!
-//! Prisms, blocks and cylinders of one direction, also with holes from end to end, have the sum of their outlines: exact with
+//! Prisms, blocks and cylinders of one direction, also with holes and pockets along it, have the sum of their outlines: exact with
 //! a cylinder of that direction, with a ball, or where outlines are polygons.
 //!
 //! Bodies of revolution about parallel axes have the sum of their sections: exact with a ball, or where all is straight.

@@ -1,5 +1,5 @@
 //! Solids that are an outline between two heights: upright prisms, blocks and cylinders, and what is cut out of them from
-//! bottom to top.
+//! bottom to top. What is cut out of them from above or below leaves several, one above the other.
 
 use super::SpaceError;
 use super::fold::fold;
@@ -10,6 +10,9 @@ use octrace::{Affine, BoolOp, Primitive, Profile, Solid, Vec2};
 /// Heights that differ by less than this share of them are the same, and so are directions: files have six digits.
 const LEVEL: f64 = 2e-6;
 
+/// So many heights are told apart at most.
+const MOST: usize = 100;
+
 /// An outline between two heights.
 #[derive(Clone, Debug)]
 pub(super) struct Slab {
@@ -18,22 +21,49 @@ pub(super) struct Slab {
     pub high: f64,
 }
 
-impl Slab {
-    /// The solid as a slab; `None` where it is none. Ellipses become polygons within the tolerance.
-    ///
-    /// # Errors
-    /// If outlines have too many edges to be combined.
-    pub fn new(solid: &Solid, tolerance: Tolerance) -> Result<Option<Self>, SpaceError> {
-        fold(
-            solid,
-            |primitive, map| Ok(Self::of_primitive(primitive, map, tolerance)),
-            |op, slabs: Vec<Result<Option<Self>, SpaceError>>| {
-                let slabs: Option<Vec<Self>> = slabs.into_iter().collect::<Result<_, _>>()?;
-                slabs.map_or(Ok(None), |slabs| Self::combined(op, &slabs))
-            },
-        )
-    }
+/// The solid as slabs one above the other; `None` where it is none. Ellipses become polygons within the tolerance.
+///
+/// # Errors
+/// If outlines have too many edges to be combined.
+pub(super) fn slabs(solid: &Solid, tolerance: Tolerance) -> Result<Option<Vec<Slab>>, SpaceError> {
+    fold(
+        solid,
+        |primitive, map| Ok(Slab::of_primitive(primitive, map, tolerance).map(|slab| vec![slab])),
+        |op, operands: Vec<Result<Option<Vec<Slab>>, SpaceError>>| {
+            let operands: Option<Vec<Vec<Slab>>> = operands.into_iter().collect::<Result<_, _>>()?;
+            operands.map_or(Ok(None), |operands| combined(op, &operands))
+        },
+    )
+}
 
+/// What is between one height and the next, for all heights at which an operand begins or ends; `None` where these are many.
+fn combined(op: BoolOp, operands: &[Vec<Slab>]) -> Result<Option<Vec<Slab>>, SpaceError> {
+    let mut heights: Vec<f64> = operands.iter().flatten().flat_map(|slab| [slab.low, slab.high]).collect();
+    heights.sort_unstable_by(f64::total_cmp);
+    let (Some(lowest), Some(highest)) = (heights.first(), heights.last()) else { return Ok(Some(Vec::new())) };
+    let same = LEVEL * (highest - lowest);
+    heights.dedup_by(|height, kept| *height - *kept <= same);
+    if heights.len() > MOST {
+        return Ok(None);
+    }
+    let mut slabs: Vec<Slab> = Vec::new();
+    for ends in heights.windows(2) {
+        let (low, high) = (ends[0], ends[1]);
+        let middle = 0.5 * (low + high);
+        let at_middle = |slabs: &Vec<Slab>| slabs.iter().find(|slab| slab.low < middle && middle < slab.high).cloned();
+        let outlines: Vec<Outline> =
+            operands.iter().map(|slabs| at_middle(slabs).map_or(Outline::EMPTY, |slab| slab.outline)).collect();
+        let outline = combine(op, &outlines.iter().collect::<Vec<&Outline>>())?;
+        match slabs.last_mut() {
+            _ if outline.is_empty() => {}
+            Some(below) if below.high == low && below.outline == outline => below.high = high,
+            _ => slabs.push(Slab { outline, low, high }),
+        }
+    }
+    Ok(Some(slabs))
+}
+
+impl Slab {
     fn of_primitive(primitive: &Primitive, map: &Affine, tolerance: Tolerance) -> Option<Self> {
         let upright = |v: octrace::Vec3| v.x.abs().max(v.y.abs()) <= LEVEL * v.length();
         let level = |v: octrace::Vec3| v.z.abs() <= LEVEL * v.length();
@@ -52,31 +82,6 @@ impl Slab {
             low: ends[0].min(ends[1]),
             high: ends[0].max(ends[1]),
         })
-    }
-
-    fn combined(op: BoolOp, slabs: &[Self]) -> Result<Option<Self>, SpaceError> {
-        let Some(first) = slabs.first() else { return Ok(None) };
-        let same = |a: f64, b: f64| (a - b).abs() <= LEVEL * (first.high - first.low);
-        let (mut low, mut high) = (first.low, first.high);
-        let fits = |slab: &Self| match op {
-            BoolOp::Union => same(slab.low, low) && same(slab.high, high),
-            BoolOp::Difference => {
-                (slab.low <= low || same(slab.low, low)) && (slab.high >= high || same(slab.high, high))
-            }
-            BoolOp::Intersection => true,
-        };
-        if !slabs[1..].iter().all(fits) {
-            return Ok(None);
-        }
-        if op == BoolOp::Intersection {
-            low = slabs.iter().map(|slab| slab.low).fold(low, f64::max);
-            high = slabs.iter().map(|slab| slab.high).fold(high, f64::min);
-            if low >= high {
-                return Ok(None);
-            }
-        }
-        let outlines: Vec<&Outline> = slabs.iter().map(|slab| &slab.outline).collect();
-        Ok(Some(Self { outline: combine(op, &outlines)?, low, high }))
     }
 
     /// The Minkowski sum.

@@ -6,10 +6,13 @@ use super::frusta::across;
 use super::hull::square;
 use super::leaves::{Leaf, leaves};
 use super::pieces::is_convex_primitive;
-use super::slab::Slab;
+use super::slab::{Slab, slabs};
 use crate::Tolerance;
 use octrace::model::Node;
 use octrace::{Affine, Primitive, Solid, Vec3};
+
+/// So many pairs of slabs have their sums made at most.
+const MOST_PAIRS: usize = 100;
 
 /// The sum where all operands are outlines between two heights, in some direction, or balls; and not all of them are blocks,
 /// cylinders and the like.
@@ -41,7 +44,7 @@ fn upright(solids: &[Solid]) -> Option<Affine> {
 
 /// The sum, if everything is as it should be after it was turned.
 fn sum_of_upright_slabs(solids: &[Solid], upright: &Affine, tolerance: Tolerance) -> Result<Option<Solid>, SpaceError> {
-    let (mut sum, mut radius, mut moved): (Option<Slab>, f64, Vec3) = (None, 0.0, Vec3::ZERO);
+    let (mut sum, mut radius, mut moved): (Option<Vec<Slab>>, f64, Vec3) = (None, 0.0, Vec3::ZERO);
     for solid in solids.iter().filter(|solid| !matches!(solid.node(), Node::Empty)) {
         let turned = solid.clone().transform(*upright);
         if let Some((center, more)) = as_ball(&turned) {
@@ -49,15 +52,20 @@ fn sum_of_upright_slabs(solids: &[Solid], upright: &Affine, tolerance: Tolerance
             moved += center;
             continue;
         }
-        let Some(slab) = Slab::new(&turned, tolerance)? else { return Ok(None) };
+        let Some(slabs) = slabs(&turned, tolerance)? else { return Ok(None) };
         sum = Some(match sum {
-            None => slab,
-            Some(sum) => sum.plus(&slab, tolerance)?,
+            None => slabs,
+            Some(sum) if sum.len().saturating_mul(slabs.len()) > MOST_PAIRS => return Ok(None),
+            Some(sum) => {
+                let pairs = sum.iter().flat_map(|a| slabs.iter().map(move |b| a.plus(b, tolerance)));
+                pairs.collect::<Result<_, _>>()?
+            }
         });
     }
     let Some(sum) = sum else { return Ok(None) };
-    let solid = if radius > 0.0 { sum.rounded(radius)? } else { sum.solid() };
-    Ok(Some(solid.translate(moved)))
+    let of = |slab: Slab| if radius > 0.0 { slab.rounded(radius) } else { Ok(slab.solid()) };
+    let parts: Vec<Solid> = sum.into_iter().map(of).collect::<Result<_, _>>()?;
+    Ok(Some(Solid::union(parts).translate(moved)))
 }
 
 /// Centre and radius of a solid that is a ball.
@@ -121,6 +129,16 @@ mod tests {
         check(&[drilled(5.0, 4.0), ball(0.5)], rounded([80.0 - 4.0 * PI, 36.0 + 4.0 * PI, 0.0], 6.0, 0.5));
         // Half of the hole is in the block, and has a corner at each end.
         check(&[ball(0.5), drilled(5.0, 0.0)], rounded([80.0 - 2.0 * PI, 32.0 + 2.0 * PI, PI], 6.0, 0.5));
+    }
+
+    #[test]
+    fn counterbored_plates_are_rounded() {
+        let (r, bore) = (0.5, Solid::cylinder().scale([3.0, 3.0, 9.0]).translate([5.0, 4.0, 4.0]));
+        let disc = |radius: f64| PI * radius * radius;
+        // What stays open within r of a rim: slices of the radius less sqrt(r² - t²).
+        let rim = |radius: f64| disc(radius) * r - radius * PI * PI * r * r / 2.0 + 2.0 / 3.0 * PI * r.powi(3);
+        let open = 2.0 * rim(2.0) + 4.0 * disc(2.0 - r) + (2.0 - r) * disc(3.0 - r) + rim(3.0);
+        check(&[drilled(5.0, 4.0) - bore, ball(r)], rounded([80.0, 36.0, PI], 6.0, r) - open);
     }
 
     #[test]

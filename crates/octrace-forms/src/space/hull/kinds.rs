@@ -12,8 +12,11 @@ pub(super) struct Kind {
     pub takes_corners: bool,
 }
 
-/// Ways to have an exact hull: whether some things have it, and whether corners may be among them.
-const FORMS: [(fn(&Extremes) -> bool, bool); 4] = [
+/// Whether things have an exact hull together.
+type Form = fn(&Extremes) -> bool;
+
+/// Ways to have one, each with whether corners may be among the things.
+const FORMS: [(Form, bool); 4] = [
     (|things| frame::balls(things).is_some(), true),
     (|things| frame::discs(things).is_some(), true),
     (|things| frame::rounded(things).is_some(), false),
@@ -22,7 +25,7 @@ const FORMS: [(fn(&Extremes) -> bool, bool); 4] = [
 
 /// The kinds that there are, the largest first. A thing may be of several.
 pub(super) fn kinds(rounds: &[Round]) -> Vec<Kind> {
-    let have = |form: fn(&Extremes) -> bool, which: &[usize]| {
+    let have = |form: Form, which: &[usize]| {
         form(&Extremes { points: Vec::new(), rounds: which.iter().map(|&i| rounds[i]).collect() })
     };
     let mut kinds: Vec<Kind> = Vec::new();
