@@ -45,9 +45,9 @@ fn solve(count: usize, program: &Program, halves: &[HalfSpace]) -> Option<[f64; 
 
 fn is_held(count: usize, half: &HalfSpace, x: [f64; 3]) -> bool {
     let (mut value, mut size) = (0.0, half.most.abs());
-    for i in 0..count {
-        value += half.normal[i] * x[i];
-        size += (half.normal[i] * x[i]).abs();
+    for (normal, x) in half.normal.iter().zip(x).take(count) {
+        value += normal * x;
+        size += (normal * x).abs();
     }
     value <= half.most + 4.0 * f64::EPSILON * size
 }
