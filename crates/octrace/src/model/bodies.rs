@@ -117,4 +117,15 @@ mod tests {
         let Node::Combine(BoolOp::Union, clear) = bodies.solids[1].node() else { panic!("two glass solids") };
         assert_eq!(clear.len(), 2);
     }
+
+    #[test]
+    fn a_solid_that_glass_was_cut_from_is_not_opaque() {
+        let parts =
+            vec![Part { material: Material::glass(Rgb::WHITE) }, Part { material: Material::matte(Rgb::WHITE) }];
+        let opaque = |solid: Solid| Scene { parts: parts.clone(), ..Scene::new(solid) }.bodies().opaque;
+        let (glass, matte) = (Solid::sphere().part(PartId(0)), Solid::block().part(PartId(1)));
+        assert_eq!(opaque(matte.clone()), [true]);
+        assert_eq!(opaque(glass.clone() + matte.clone()), [true, false]);
+        assert_eq!(opaque(matte - glass), [false]);
+    }
 }

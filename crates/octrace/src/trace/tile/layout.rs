@@ -56,7 +56,7 @@ pub(super) fn packets_in(rows: u32, columns: u32) -> u32 {
         }
         packets
     };
-    let in_columns = ((columns & 3) * 0x05 | (columns >> 2) * 0x50) * 0x0101_0101;
+    let in_columns = (((columns & 3) * 0x05) | ((columns >> 2) * 0x50)) * 0x0101_0101;
     IN_ROWS[rows as usize % IN_ROWS.len()] & in_columns
 }
 

@@ -11,11 +11,12 @@ use super::prune::{Parts, Pruned};
 use super::walk::Walk;
 use crate::geom::Vec3;
 
-/// Programs are pruned for at least so many packets; for fewer it takes longer than it saves.
-const PRUNED_FOR: u32 = 6;
+/// Programs are pruned where there would be so many words to evaluate at least, for all packets together; for fewer it takes
+/// longer than it saves.
+const PRUNED_FROM: u32 = 100;
 
-/// Of streams, they are pruned for at least so many.
-const STREAM_PRUNED_FOR: u32 = 5;
+/// Those for streams are pruned from so many on.
+const STREAM_PRUNED_FROM: u32 = 60;
 
 /// A slab is cut in two so many times at most.
 pub(super) const MAX_CUTS: usize = 4;
@@ -49,7 +50,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             return;
         }
         let cube = Cube { center, half };
-        if packets.count_ones() < PRUNED_FOR {
+        if packets.count_ones() * (words.len() as u32) < PRUNED_FROM {
             self.evaluate(words, packets, cube, (0.0, f64::INFINITY));
             return;
         }
@@ -93,8 +94,8 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             self.give_up_in(packets, cube, everywhere);
             return;
         }
-        let narrow = match packets.count_ones() {
-            0..STREAM_PRUNED_FOR => 0,
+        let narrow = match packets.count_ones() * (words.len() as u32) {
+            0..STREAM_PRUNED_FROM => 0,
             _ => {
                 self.bundles.know::<I>(self.packets, signs);
                 packets_of(self.bundles.narrow::<I>(LEAST_PRUNED, cube.half))

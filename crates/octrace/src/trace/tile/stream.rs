@@ -11,8 +11,8 @@ use super::packet::Own;
 use super::sort::{Alike, Sort};
 use super::walk::{Lead, Scenery, walk};
 use super::{PACKETS, RayTile, TileHit};
-use crate::compile::Constant;
-use crate::geom::{Bounds, Ray};
+use crate::compile::{Constant, Program};
+use crate::geom::{Bounds, Ray, Vec3};
 use crate::trace::prepared::Usual;
 use crate::trace::{Scratch, Tracer};
 use std::ops::Range;
@@ -164,11 +164,13 @@ impl Tracer {
         tile.sorted = sorted;
     }
 
-    /// A box that holds some bodies, if they are bounded: theirs are the roots of their octrees.
+    /// A box that holds some bodies, if they are bounded, with some room to spare.
     fn room_of(&self, bodies: &Range<usize>) -> Option<Bounds> {
         self.bodies[bodies.clone()].iter().try_fold(Bounds::EMPTY, |room, body| {
-            let is_bounded = body.program.outer == Constant::Everywhere(false);
-            is_bounded.then(|| body.octree().map_or(room, |octree| room.union(octree.bounds())))
+            let Program { outer, bounds, .. } = &body.program;
+            let spare = body.octree().map_or(0.0, |octree| 1e-3 * octree.half);
+            let around = Bounds { min: bounds.min - Vec3::splat(spare), max: bounds.max + Vec3::splat(spare) };
+            (*outer == Constant::Everywhere(false)).then(|| room.union(around))
         })
     }
 
