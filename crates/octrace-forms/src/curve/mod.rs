@@ -83,13 +83,16 @@ impl Pen {
 
     /// A cubic Bézier curve.
     pub fn cubic_to(&mut self, c1: Vec2, c2: Vec2, p: Vec2) {
-        let bezier = Bezier([self.at, c1, c2, p]);
         match self.strokes {
-            Strokes::Arcs { tolerance } => bezier.arcs(tolerance, self),
-            Strokes::Chords(n) => {
-                (1..=n).for_each(|i| self.line_to(if i == n { p } else { bezier.at(f64::from(i) / f64::from(n)) }))
-            }
+            Strokes::Arcs { tolerance } => Bezier([self.at, c1, c2, p]).arcs(tolerance, self),
+            Strokes::Chords(n) => self.cubic_as_chords(c1, c2, p, n),
         }
+    }
+
+    /// So many chords of a cubic Bézier curve.
+    pub fn cubic_as_chords(&mut self, c1: Vec2, c2: Vec2, p: Vec2, n: u32) {
+        let bezier = Bezier([self.at, c1, c2, p]);
+        (1..=n).for_each(|i| self.line_to(if i == n { p } else { bezier.at(f64::from(i) / f64::from(n)) }));
     }
 
     /// Closes the contour with a line, unless it is closed.
@@ -222,8 +225,9 @@ mod tests {
     #[test]
     fn a_circle_of_no_size_is_nothing() {
         let mut pen = Pen::new(Strokes::Arcs { tolerance: 1e-6 });
-        pen.move_to(Vec2::X);
-        pen.arc_to(Vec2::X, Vec2::X, 0.0, true);
+        let p = Vec2::new(1.0, 2.0);
+        pen.move_to(p);
+        pen.arc_to(p, p, 0.0, true);
         assert!(pen.finish().is_empty());
     }
 

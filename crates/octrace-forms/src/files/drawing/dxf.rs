@@ -1,9 +1,10 @@
 //! DXF, AutoCAD's exchange format, as text: pairs of lines, a code and a value.
 //!
 //! What OpenSCAD reads is read as it reads it: layers, blocks and where they are inserted, an origin and a scale. Beyond
-//! that there are old-style polylines, and polylines may have arcs. The base point of blocks is passed over, as there.
+//! that there are old-style polylines and splines, and polylines may have arcs. The base point of blocks is passed over, as there.
 
 use super::join::{Piece, joined};
+use super::spline::Spline;
 use super::{Drawing, DrawingError, DrawingOptions, DrawingWarning, MOST_PIECES};
 use crate::curve::{EllipticArc, bulged};
 use octrace::Vec2;
@@ -47,6 +48,10 @@ struct Entity {
     second: Vec2,
     /// Codes 40, 41 and 42; 50 and 51.
     numbers: [Option<f64>; 3],
+    /// All of codes 40 and 41: a spline's knots and weights.
+    lists: [Vec<f64>; 2],
+    /// A spline's degree.
+    degree: usize,
     angles: [f64; 2],
 }
 
@@ -56,6 +61,7 @@ impl Entity {
             2 => self.name = value.to_string(),
             8 => self.layer = value.to_string(),
             70 => self.flags = value.parse().unwrap_or(0),
+            71 => self.degree = value.parse().unwrap_or(0),
             10 | 20 | 11 | 21 | 40..=42 | 50 | 51 => {
                 let number = value.parse::<f64>().ok().filter(|number| number.is_finite());
                 let problem = || format!("`{}` is no finite number", value.chars().take(40).collect::<String>());
@@ -67,6 +73,9 @@ impl Entity {
                     21 => self.second.y = number,
                     50 | 51 => self.angles[(code - 50) as usize] = number,
                     _ => self.numbers[(code - 40) as usize] = Some(number),
+                }
+                if let 40 | 41 = code {
+                    self.lists[(code - 40) as usize].push(number);
                 }
                 // How much the side from a polyline's corner bulges.
                 if code == 42 {
@@ -153,13 +162,18 @@ impl<'a> Reader<'a> {
                 vec![self.circle(entity, start, if sweep == 0.0 && end != start { 360.0 } else { sweep })]
             }
             "ELLIPSE" => vec![self.ellipse(entity)],
+            "SPLINE" => self.spline(entity),
             "LWPOLYLINE" => self.polyline(&entity.points, entity.flags & 1 != 0),
             "POLYLINE" => {
                 self.polyline = Some((entity.flags, Vec::new()));
                 Vec::new()
             }
             "VERTEX" => {
-                if let Some((_, corners)) = &mut self.polyline {
+                // What steers a smoothed polyline is not on it.
+                const CONTROL_POINT: i32 = 16;
+                if let Some((_, corners)) = &mut self.polyline
+                    && entity.flags & CONTROL_POINT == 0
+                {
                     corners.extend(entity.points.first());
                 }
                 Vec::new()
@@ -202,6 +216,16 @@ impl<'a> Reader<'a> {
         let sweep_deg = if sweep < 1e-6 { 360.0 } else { sweep };
         let arc = EllipticArc { center: self.point(entity.first()), x, y, start_deg, sweep_deg };
         Piece::Arc(arc, self.chords(x.length(), sweep_deg))
+    }
+
+    fn spline(&mut self, entity: &Entity) -> Vec<Piece> {
+        let points: Vec<Vec2> = entity.points.iter().map(|&(p, _)| self.point(p)).collect();
+        let [knots, weights] = &entity.lists;
+        let curves = Spline { degree: entity.degree, knots, points: &points, weights }.beziers();
+        if curves.is_none() {
+            *self.passed_over.entry(entity.kind.clone()).or_default() += 1;
+        }
+        curves.into_iter().flatten().map(Piece::Bezier).collect()
     }
 
     /// Lines and arcs from corner to corner. OpenSCAD has lines only, so chords are asked for in vain.

@@ -15,12 +15,17 @@ pub(super) enum Piece {
     Line(Vec2, Vec2),
     /// With the number of chords that OpenSCAD makes of it.
     Arc(EllipticArc, u32),
+    /// A cubic Bézier curve.
+    Bezier([Vec2; 4]),
 }
+
+/// Chords for a Bézier curve where chords are wanted.
+const CHORDS_OF_A_BEZIER: u32 = 8;
 
 impl Piece {
     fn ends(&self) -> (Vec2, Vec2) {
         match self {
-            Self::Line(a, b) => (*a, *b),
+            Self::Line(a, b) | Self::Bezier([a, .., b]) => (*a, *b),
             Self::Arc(arc, _) => (arc.at(arc.start_deg), arc.at(arc.end_deg())),
         }
     }
@@ -29,6 +34,7 @@ impl Piece {
     pub fn moved(&self, point: impl Fn(Vec2) -> Vec2, vector: impl Fn(Vec2) -> Vec2) -> Self {
         match *self {
             Self::Line(a, b) => Self::Line(point(a), point(b)),
+            Self::Bezier(points) => Self::Bezier(points.map(point)),
             Self::Arc(arc, chords) => {
                 let (x, y) = (vector(arc.x), vector(arc.y));
                 Self::Arc(EllipticArc { center: point(arc.center), x, y, ..arc }, chords)
@@ -41,10 +47,11 @@ impl Piece {
 pub(super) fn joined(pieces: &[Piece], options: &DrawingOptions) -> (Paths, usize) {
     let ends: Vec<Vec2> = pieces.iter().map(Piece::ends).flat_map(|(a, b)| [a, b]).collect();
     let reach = |piece: &Piece| match piece {
-        Piece::Line(a, b) => [*a, *b],
+        Piece::Line(a, b) => [*a, *b, *a, *b],
+        Piece::Bezier(points) => *points,
         Piece::Arc(EllipticArc { center, x, y, .. }, _) => {
             let reach = Vec2::new(x.x.abs() + y.x.abs(), x.y.abs() + y.y.abs());
-            [*center - reach, *center + reach]
+            [*center - reach, *center + reach, *center, *center]
         }
     };
     let corners: Vec<Vec2> = pieces.iter().flat_map(reach).collect();
@@ -68,6 +75,13 @@ pub(super) fn joined(pieces: &[Piece], options: &DrawingOptions) -> (Paths, usiz
             }
             match pieces[piece] {
                 Piece::Line(..) => pen.line_to(to),
+                Piece::Bezier([_, b, c, _]) => {
+                    let [c1, c2] = if backwards { [c, b] } else { [b, c] };
+                    match options.fragments {
+                        None => pen.cubic_to(c1, c2, to),
+                        Some(_) => pen.cubic_as_chords(c1, c2, to, CHORDS_OF_A_BEZIER),
+                    }
+                }
                 Piece::Arc(arc, chords) => draw_arc(arc, chords, backwards, to, options.fragments.is_some(), &mut pen),
             }
         }

@@ -4,6 +4,7 @@
 
 mod dxf;
 mod join;
+mod spline;
 mod stroke;
 mod svg;
 mod svg_page;

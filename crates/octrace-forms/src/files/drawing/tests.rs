@@ -311,6 +311,20 @@ fn old_polylines_have_arcs_and_unknown_entities_are_counted() {
     assert_eq!(drawing.warnings, [DrawingWarning::NoLayer("c".to_string())]);
 }
 
+/// A parabola over its chord: two thirds of the box.
+#[test]
+fn splines_are_curves() {
+    let spline = "0 SPLINE 70 8 71 2 40 0 40 0 40 0 40 1 40 1 40 1 10 0 20 0 10 2 20 4 10 4 20 0";
+    let text = dxf("", &format!("{spline} 0 LINE 10 4 20 0 11 0 21 0"));
+    let drawing = read(DrawingFormat::Dxf, text.as_bytes(), &DrawingOptions::default()).unwrap();
+    check(&drawing, [0.0, 4.0, 0.0, 2.0], 16.0 / 3.0, 0.0, "a parabola");
+    assert_eq!(drawing.warnings, []);
+    let chords = DrawingOptions { fragments: Some(&usual), ..DrawingOptions::default() };
+    // Eight chords are an eighth of an eighth too small.
+    let drawing = read(DrawingFormat::Dxf, text.as_bytes(), &chords).unwrap();
+    check(&drawing, [0.0, 4.0, 0.0, 2.0], 16.0 / 3.0 * 63.0 / 64.0, 0.0, "a parabola in chords");
+}
+
 #[test]
 fn hostile_dxf_comes_to_an_end() {
     let open = |text: &str| read(DrawingFormat::Dxf, text.as_bytes(), &DrawingOptions::default());
