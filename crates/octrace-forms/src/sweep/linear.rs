@@ -2,7 +2,7 @@
 
 use super::layers::{Diagonal, Ends, Section, Sides};
 use super::slices::{self, Fragments};
-use super::{SweepError, profile};
+use super::{SweepError, profile, resolved};
 use crate::Tolerance;
 use crate::plane::{Affine2, Flat, Outline};
 use octrace::geom::sin_cos_deg;
@@ -44,7 +44,7 @@ pub fn linear_extrude(shape: &Flat, how: &LinearExtrude, tolerance: Tolerance) -
     };
     let placed = |solid: Solid| solid.translate([0.0, 0.0, how.base]).transform(leaning);
     if how.twist_deg == 0.0 && x == y {
-        return prism(shape, how.height, x).map(placed);
+        return prism(&resolved(shape, tolerance)?, how.height, x).map(placed);
     }
     sliced(shape, how, tolerance).map(placed)
 }
@@ -208,6 +208,18 @@ mod tests {
         check(&centered(2.0), &how(10.0, -90.0, [1.0, 2.0], Some(3)), 67.3207);
         let frame = Flat::combined(BoolOp::Difference, [centered(4.0), centered(1.0)]);
         check(&frame, &how(10.0, 90.0, [1.0; 2], Some(3)), 168.301);
+    }
+
+    /// Everything but a square, and everything but that: the square, and of its size.
+    #[test]
+    fn shapes_cut_out_of_the_whole_plane_keep_their_size() {
+        let plane = || centered(1e6);
+        let all_but = |shape: Flat| Flat::combined(BoolOp::Difference, [plane(), shape]);
+        let solid =
+            linear_extrude(&all_but(all_but(square(2.0))), &how(1.0, 0.0, [1.0; 2], None), Tolerance::default());
+        let bounds = crate::space::bounds(&solid.expect("it can be swept"));
+        assert!((bounds.max - Vec3::new(2.0, 2.0, 1.0)).length() < 1e-4, "{bounds:?}");
+        assert!(bounds.min.length() < 1e-4, "{bounds:?}");
     }
 
     #[test]

@@ -13,8 +13,7 @@ pub use rotate::{RotateExtrude, rotate_extrude};
 pub use slices::{Fragments, fragments};
 
 use crate::Tolerance;
-use crate::plane::Outline;
-use crate::plane::PlaneError;
+use crate::plane::{Affine2, Flat, Outline, PlaneError};
 use octrace::{PolyhedronError, Profile, ProfileError};
 use std::sync::Arc;
 
@@ -39,6 +38,20 @@ pub enum SweepError {
     /// The polyhedron is not sound.
     #[error(transparent)]
     Polyhedron(#[from] PolyhedronError),
+}
+
+/// The shape as it is to be swept: itself, or its boundary where an operand stands for the whole plane, so that shapes are cut
+/// out of it and what is left cut out again. Swept, such operands would be of a size at which nothing is found.
+fn resolved(shape: &Flat, tolerance: Tolerance) -> Result<Flat, SweepError> {
+    const PLANE: f64 = 1e4;
+    let leaf = |outline: &Arc<Outline>, map: &Affine2| -> Result<(f64, f64), SweepError> {
+        let size = outline.moved(map, tolerance).bounds().map(|bounds| bounds.diagonal());
+        Ok(size.map_or((f64::INFINITY, 0.0), |size| (size, size)))
+    };
+    let (least, most) = shape.fold(leaf, |_, sizes| {
+        Ok(sizes.iter().fold((f64::INFINITY, 0.0), |all, size| (all.0.min(size.0), all.1.max(size.1))))
+    })?;
+    Ok(if most > PLANE * least { Flat::Outline(shape.outline(tolerance)?) } else { shape.clone() })
 }
 
 /// The profile that an outline is; `None` where it has no area.

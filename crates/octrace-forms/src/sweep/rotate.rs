@@ -3,7 +3,7 @@
 use super::layers::{Ends, Section, Sides};
 use super::linear::polygons;
 use super::slices::{Fragments, fragments};
-use super::{SweepError, profile};
+use super::{SweepError, profile, resolved};
 use crate::Tolerance;
 use crate::plane::{Affine2, Bounds2, Flat, Outline};
 use octrace::geom::sin_cos_deg;
@@ -38,7 +38,7 @@ pub fn rotate_extrude(shape: &Flat, how: &RotateExtrude, tolerance: Tolerance) -
     if how.angle_deg == 0.0 {
         return Ok(Solid::empty());
     }
-    let mut shape = shape.clone();
+    let mut shape = resolved(shape, tolerance)?;
     let mut sides = shape.bounds();
     if sides.is_some_and(|sides| sides.min.x < 0.0 && 0.0 < sides.max.x) {
         // The bounds of a combination are those of its operands. Its boundary tells.

@@ -34,9 +34,9 @@ pub(super) fn check(chords: &[Chord]) -> Result<(), PlaneError> {
 }
 
 fn cross(a: &Chord, b: &Chord) -> bool {
-    let side = |c: &Chord, x: i32, y: i32| {
-        let (ux, uy) = (i64::from(c.to.x) - i64::from(c.from.x), i64::from(c.to.y) - i64::from(c.from.y));
-        ux * (i64::from(y) - i64::from(c.from.y)) - uy * (i64::from(x) - i64::from(c.from.x)) > 0
+    let side = |c: &Chord, x: i64, y: i64| {
+        let (ux, uy) = (c.to.x - c.from.x, c.to.y - c.from.y);
+        i128::from(ux) * i128::from(y - c.from.y) > i128::from(uy) * i128::from(x - c.from.x)
     };
     side(a, b.from.x, b.from.y) != side(a, b.to.x, b.to.y) && side(b, a.from.x, a.from.y) != side(b, a.to.x, a.to.y)
 }

@@ -125,7 +125,7 @@ fn evaluate<'a>(
     let Some(sources) = Sources::new(subject.chain(clip))? else { return Ok(Outline::EMPTY) };
     let chords = sources.chords();
     crossings::check(&chords)?;
-    let mut overlay = EdgeOverlay::<i32, Origin>::new(chords.len());
+    let mut overlay = EdgeOverlay::<i64, Origin>::new(chords.len());
     for chord in &chords {
         let edge = InputEdge { a: chord.from, b: chord.to, data: Origin(chord.source) };
         overlay.add_edge(edge, chord.role);

@@ -13,13 +13,13 @@ use octrace::{Contour, Curve, Edge, Vec2};
 use std::f64::consts::PI;
 
 /// The outline that polygons on the grid stand for.
-pub(super) fn outline(sources: &Sources, shapes: &[DataVectorShape<i32, Origin>]) -> Outline {
+pub(super) fn outline(sources: &Sources, shapes: &[DataVectorShape<i64, Origin>]) -> Outline {
     Outline { contours: shapes.iter().flatten().flat_map(|path| contours(sources, path)).collect() }
 }
 
 /// The contours that a closed chain of chords stands for: one, and the circles that touch it. The chain itself where the two
 /// would differ by more than chords and grid explain; none for what is only a sliver between points of the grid.
-fn contours(sources: &Sources, path: &DataVectorPath<i32, Origin>) -> Vec<Contour> {
+fn contours(sources: &Sources, path: &DataVectorPath<i64, Origin>) -> Vec<Contour> {
     let corners: Vec<Vec2> = path.iter().map(|chord| sources.grid.place(chord.a)).collect();
     let polygon = straight(&corners);
     let area = signed_area(&polygon);
@@ -46,7 +46,7 @@ fn with_circles_apart(contour: Contour) -> Vec<Contour> {
     contours
 }
 
-fn chord_length(sources: &Sources, chord: &DataVectorEdge<i32, Origin>) -> f64 {
+fn chord_length(sources: &Sources, chord: &DataVectorEdge<i64, Origin>) -> f64 {
     (sources.grid.place(chord.b) - sources.grid.place(chord.a)).length()
 }
 
@@ -56,7 +56,7 @@ fn slack(sources: &Sources, source: u32) -> f64 {
     4.0 * sources.grid.step() + circle.map_or(0.0, |circle| circle.sagitta())
 }
 
-fn curved(sources: &Sources, path: &DataVectorPath<i32, Origin>) -> Contour {
+fn curved(sources: &Sources, path: &DataVectorPath<i64, Origin>) -> Contour {
     let mut runs = runs(sources, path);
     loop {
         if let [Run { curve: RunCurve::Circle { circle, ccw }, .. }] = runs[..] {

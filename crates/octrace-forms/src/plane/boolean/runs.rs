@@ -36,7 +36,7 @@ pub(super) enum RunCurve {
 }
 
 impl Run {
-    fn of(sources: &Sources, chord: &DataVectorEdge<i32, Origin>) -> Self {
+    fn of(sources: &Sources, chord: &DataVectorEdge<i64, Origin>) -> Self {
         let source = chord.data.0;
         let (curve, turn) = match sources.edges[source as usize].circle {
             None => (RunCurve::Line { source }, 0.0),
@@ -58,7 +58,7 @@ impl Run {
 }
 
 /// The runs of a closed chain of chords: no two neighbours are on the same curve, unless there is only one run.
-pub(super) fn runs(sources: &Sources, chords: &[DataVectorEdge<i32, Origin>]) -> Vec<Run> {
+pub(super) fn runs(sources: &Sources, chords: &[DataVectorEdge<i64, Origin>]) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     for chord in chords {
         join(&mut runs, Run::of(sources, chord));

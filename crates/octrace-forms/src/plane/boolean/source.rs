@@ -121,7 +121,8 @@ impl Sources {
         let size = (max.x - min.x).max(max.y - min.y);
         let arc = |edge: &Edge, to: Vec2| arc(edge, to, size);
         let corners: Vec<Vec2> = all.iter().map(|(_, edge, _)| edge.from).collect();
-        let Some(grid) = Grid::new(min, max, &corners) else { return Ok(None) };
+        let points = corners.iter().copied().chain(all.iter().flat_map(|(_, edge, _)| sides(edge))).collect::<Vec<_>>();
+        let Some(grid) = Grid::new(min, max, &corners, &points) else { return Ok(None) };
         let arcs: Vec<(Vec2, f64)> =
             all.iter().filter_map(|(_, edge, to)| arc(edge, *to)).map(|(center, radius, _)| (center, radius)).collect();
         let same = Same::new(&arcs, grid.step());
@@ -190,6 +191,16 @@ impl Sources {
         }
         chords
     }
+}
+
+/// The four sides of an arc's circle; none of a line.
+fn sides(edge: &Edge) -> impl Iterator<Item = Vec2> + use<> {
+    let circle = match edge.curve {
+        Curve::Arc { center, radius, .. } => Some((center, radius)),
+        Curve::Line => None,
+    };
+    let ways = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+    circle.into_iter().flat_map(move |(center, radius)| ways.map(|[x, y]| center + Vec2::new(x, y) * radius))
 }
 
 /// Centre, radius and sense of an arc. `None` for a line, and for what is treated as one: an arc so flat that it cannot be
