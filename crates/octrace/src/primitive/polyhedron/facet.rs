@@ -63,7 +63,8 @@ pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> 
         let plane = FacePlane::fit(&coordinates);
         let warped = |p: &FacePlane| coordinates.iter().any(|&q| p.distance(q).abs() > tolerance);
         let pieces = cutter.cut(&corners, &coordinates, plane);
-        if plane.is_some_and(|p| warped(&p)) {
+        if let Some(plane) = plane.filter(warped) {
+            let pieces = across(&corners, &coordinates, plane).map_or(pieces, Vec::from);
             for corners in pieces {
                 triangles.push(Triangle { corners, face: planar.len() as u32 });
                 planar.push(corners.to_vec());
@@ -74,6 +75,33 @@ pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> 
         }
     }
     (planar, triangles)
+}
+
+/// A convex quadrangle cut along the diagonal that is Delaunay's, seen along an axis, as OpenSCAD cuts it; `None`
+/// where both are, or the face is another.
+fn across(corners: &[u32], coordinates: &[Vec3], plane: FacePlane) -> Option<[[u32; 3]; 2]> {
+    let (&[a, b, c, d], &[pa, pb, pc, pd]) = (corners, flatten(coordinates, plane.normal).as_slice()) else {
+        return None;
+    };
+    let turn = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    if [turn(pa, pb, pc), turn(pb, pc, pd), turn(pc, pd, pa), turn(pd, pa, pb)].iter().any(|&turn| turn <= 0.0) {
+        return None;
+    }
+    // The angles at b and at d: with more than half a turn together the diagonal is between them.
+    let angle = |at: [f64; 2], from: [f64; 2], to: [f64; 2]| {
+        let (u, v) = ([from[0] - at[0], from[1] - at[1]], [to[0] - at[0], to[1] - at[1]]);
+        (u[0] * v[0] + u[1] * v[1], u[0] * v[1] - u[1] * v[0])
+    };
+    let ((cos_b, sin_b), (cos_d, sin_d)) = (angle(pb, pc, pa), angle(pd, pa, pc));
+    let sum = sin_b * cos_d + cos_b * sin_d;
+    let scale = 1e-9 * (sin_b.abs() + cos_b.abs()) * (sin_d.abs() + cos_d.abs());
+    if sum.abs() <= scale {
+        None
+    } else if sum > 0.0 {
+        Some([[a, b, c], [a, c, d]])
+    } else {
+        Some([[a, b, d], [b, c, d]])
+    }
 }
 
 /// Cuts polygons into triangles; keeps its memory from one polygon to the next.
