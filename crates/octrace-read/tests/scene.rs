@@ -1,7 +1,7 @@
 //! What a scene holds besides its solid: materials, lights, camera, surroundings; and what else is known of the file.
 
 use octrace::{Camera, Light, Material, Projection, Rgb, Scene, Vec3};
-use octrace_read::{Dialect, Loaded, ReadOptions, Source, read_scene};
+use octrace_read::{Dialect, Folder, Ghosts, Loaded, ReadOptions, Source, read_scene};
 
 fn load_as(name: &str, text: &str, options: &ReadOptions) -> Loaded {
     let checked = read_scene(&Source::new(name, text), options);
@@ -139,4 +139,23 @@ fn equal_primitives_are_one() {
     };
     assert_eq!(leaf(0), leaf(1));
     assert_eq!(leaf(2), leaf(3));
+}
+
+#[test]
+fn an_empty_mesh_is_nothing_and_that_is_said() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    std::fs::write(folder.path().join("empty.stl"), "solid\nendsolid\n").expect("a file can be written");
+    let source = Source::new("test.csg", "cube(1); import(file = \"empty.stl\");");
+    let checked = read_scene(&source.with_assets(Folder(folder.path().to_owned())), &ReadOptions::default());
+    assert_eq!(checked.diagnostics.iter().map(|d| d.code).collect::<Vec<_>>(), ["empty-file"]);
+    assert_eq!(checked.value.expect("there is a scene").leaves, 1);
+}
+
+#[test]
+fn what_is_flat_and_in_the_background_is_a_plate() {
+    let options = ReadOptions { ghosts: Ghosts::Drawn, ..ReadOptions::default() };
+    let scene = load_as("test.csg", "cube(1); %translate([5, 0, 0]) { square(2); }", &options).scene;
+    let bounds = octrace_forms::space::bounds(&scene.solid);
+    assert_eq!((bounds.min.to_array(), bounds.max.to_array()), ([0.0, 0.0, -0.5], [7.0, 2.0, 1.0]));
+    assert_eq!(scene.parts.len(), 1);
 }

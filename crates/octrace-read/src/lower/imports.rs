@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use octrace::{BoolOp, PolyhedronError, Solid, Vec2};
 use octrace_forms::files::drawing::{self, DrawingFormat, DrawingOptions, Place};
 use octrace_forms::files::height::{self, HeightField, Shades};
-use octrace_forms::files::mesh::{self, MeshFormat, RawMesh, SolidError};
+use octrace_forms::files::mesh::{self, MeshError, MeshFormat, RawMesh, SolidError};
 use octrace_forms::plane::{Fill, Flat, region};
 use octrace_forms::sweep::fragments;
 use octrace_forms::text::{self, TextSpec};
@@ -85,6 +85,10 @@ impl Walk<'_, '_> {
         if let Some(format) = MeshFormat::of_name(&name) {
             let mesh = match mesh::read(format, &bytes) {
                 Ok(mesh) => mesh,
+                Err(error @ MeshError::Empty) => {
+                    let message = format!("there is nothing in `{name}`: {error}");
+                    return self.absent(Diagnostic::error("empty-file", at, message));
+                }
                 Err(error) => return self.unreadable(&name, &error, at),
             };
             return self.polyhedron(&name, mesh, at, in_hull);
