@@ -222,8 +222,9 @@ impl Builder<'_> {
         const STEP: f64 = 2.0;
         /// The share of rays through a cell that get to a certain child.
         const REACHED: f64 = 0.2;
-        /// With longer programs there is always something to gain, if not at once.
-        const LONG: usize = 64;
+        /// With longer programs there is always something to gain, if not at once: what is small and in the middle of a
+        /// cell is in all of its children.
+        const LONG: usize = 12;
         let cut = REACHED * children.iter().map(|&words| STEP + words as f64).sum::<f64>();
         !self.by_cost || words > LONG || cut < STEP + words as f64
     }
