@@ -104,8 +104,9 @@ impl Torus {
         let a = along.x * along.x + along.y * along.y;
         let b = near.x * along.x + near.y * along.y;
         let size = 1.0 + self.minor;
+        // Where f turns it is flat, so its sign there is that of a place nearby.
+        let (turns, count) = cubic_roots(k - 2.0 * a, -2.0 * b, lo, hi, 1e-10 * size);
         let tolerance = f64::EPSILON / 16.0 * size;
-        let (turns, count) = cubic_roots(k - 2.0 * a, -2.0 * b, lo, hi, tolerance);
 
         // Points are computed to a few roundings of the coordinates that go into them, and g has the slope 2 minor. A
         // turn where g is zero to that precision touches the surface, or is itself the root of a longer stretch.
