@@ -115,7 +115,8 @@ proptest! {
         let Some(ray) = ray_through(&octree, from, to, nudge, length) else { return Ok(()) };
         let Some((t_in, t_out)) = root_interval(&octree, &ray) else { return Ok(()) };
         let t_in = if starts_inside { t_in.max(0.0) } else { t_in };
-        if t_in >= t_out {
+        // What only touches an edge of the root is in it for a rounding, if at all: no number tells in which cells.
+        if t_out - t_in <= 1e-12 * t_in.abs().max(t_out.abs()) {
             return Ok(());
         }
         let d = |axis: usize| if is_parallel(ray.direction[axis]) { 0.0 } else { ray.direction[axis] };
