@@ -73,3 +73,28 @@ fn extreme_numbers_are_traced() {
         laws::trace(input.as_bytes());
     }
 }
+
+/// The drawing's numbers one by one as large and as small as numbers get: products of them leave the range.
+#[test]
+fn extreme_numbers_in_drawings_are_a_drawing_or_an_error() {
+    for name in ["plate.dxf", "plate.svg", "hills.dat", "corner.stl"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds").join(name);
+        let text = fs::read_to_string(&path).expect("a seed can be read");
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let words: Vec<&str> = text.split_inclusive([' ', '\n', '"', ',']).collect();
+        for extreme in ["1e308", "-1e300", "1e-310", "4e9"] {
+            let changed = |i: usize, word: &str| {
+                let number = word.trim_end_matches([' ', '\n', '"', ',']);
+                let end = &word[number.len()..];
+                if is_number(number) && i % 2 == 1 { format!("{extreme}{end}") } else { word.to_owned() }
+            };
+            let all: String = words.iter().enumerate().map(|(i, word)| changed(i, word)).collect();
+            laws::files(all.as_bytes());
+            for (i, word) in words.iter().enumerate().filter(|(_, word)| is_number(word.trim_end())) {
+                let one = format!("{extreme}{}", &word[word.trim_end().len()..]);
+                let text = [&words[..i].concat(), one.as_str(), &words[i + 1..].concat()].concat();
+                laws::files(text.as_bytes());
+            }
+        }
+    }
+}

@@ -104,7 +104,7 @@ impl HeightField {
         let sample = |x: usize, y: usize| (y * columns + x) as u32;
         for (x, y) in (0..rows - 1).flat_map(|y| (0..columns - 1).map(move |x| (x, y))) {
             let around = [sample(x, y), sample(x + 1, y), sample(x + 1, y + 1), sample(x, y + 1)];
-            let mean = around.iter().map(|&i| self.samples[i as usize]).sum::<f64>() / 4.0;
+            let mean = around.iter().map(|&i| self.samples[i as usize] / 4.0).sum();
             let middle = mesh.points.len() as u32;
             mesh.points.push(at(x as f64 + 0.5, y as f64 + 0.5, mean));
             mesh.faces.extend((0..4).map(|i| vec![around[i], around[(i + 1) % 4], middle]));

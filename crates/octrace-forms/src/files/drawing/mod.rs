@@ -12,7 +12,7 @@ mod svg_path;
 
 use crate::Tolerance;
 use crate::curve::Paths;
-use octrace::Vec2;
+use octrace::{Curve, Edge, Vec2};
 
 /// Shapes of a drawing, which together cover the union of all. Each is what an odd number of its curves surround; these
 /// may cross.
@@ -140,6 +140,9 @@ pub enum DrawingError {
     /// XML that is not well formed.
     #[error("the drawing is not well-formed XML")]
     Xml(#[from] roxmltree::Error),
+    /// Products of its numbers are larger than numbers get.
+    #[error("the drawing reaches to where there are no numbers any more")]
+    OutOfRange,
     /// More than can be worked with, by copies of copies.
     #[error("the drawing has more than {0} lines and arcs")]
     TooLarge(usize),
@@ -153,10 +156,23 @@ const MOST_PIECES: usize = 1 << 22;
 /// # Errors
 /// If the bytes are not of that format: see [`DrawingError`].
 pub fn read(format: DrawingFormat, bytes: &[u8], options: &DrawingOptions) -> Result<Drawing, DrawingError> {
-    match format {
+    let drawing = match format {
         DrawingFormat::Dxf => dxf::read(bytes, options),
         DrawingFormat::Svg => svg::read(bytes, options),
+    }?;
+    match drawing.shapes.iter().flatten().flatten().all(is_finite) {
+        true => Ok(drawing),
+        false => Err(DrawingError::OutOfRange),
     }
+}
+
+fn is_finite(edge: &Edge) -> bool {
+    let at = |p: Vec2| p.x.is_finite() && p.y.is_finite();
+    at(edge.from)
+        && match edge.curve {
+            Curve::Line => true,
+            Curve::Arc { center, radius, .. } => at(center) && radius.is_finite(),
+        }
 }
 
 #[cfg(test)]
