@@ -10,7 +10,8 @@ use super::boolean::without_straight_corners;
 use super::curve::{signed_area, sweep};
 use super::outline::full_circle;
 use octrace::{Contour, Curve, Edge, Vec2};
-use samples::{CHORDS_PER_TURN, Circle, convex, samples};
+use robust::orient2d;
+use samples::{CHORDS_PER_TURN, Circle, convex, coord, samples};
 use std::f64::consts::{PI, TAU};
 
 /// How often arcs are looked for that no sample told of, and among how many pairs of circles and lines at most.
@@ -41,12 +42,17 @@ pub fn hull<'a>(outlines: impl IntoIterator<Item = &'a Outline>) -> Outline {
         let lines: Vec<[Vec2; 2]> =
             (0..touched.len()).map(|i| tangent(&circles, &touched[i], &touched[(i + 1) % touched.len()])).collect();
         let before = |i: usize| lines[(i + lines.len() - 1) % lines.len()][1];
-        // A curve that is touched before its first sample and after its last one, by more than samples are apart, is not:
-        // those beside it bulge more than their chords.
+        // A corner where the lines turn right is within the hull: the curve that ends there bulges out beside it. A curve
+        // that is touched before its first sample and after its last one, by more than samples are apart, is not: those
+        // beside it bulge more than their chords.
         let passed = |i: usize| {
             let piece = &touched[i];
+            if before(i) == lines[i][0] {
+                let from = lines[(i + lines.len() - 1) % lines.len()][0];
+                return orient2d(coord(from), coord(lines[i][0]), coord(lines[i][1])) < 0.0;
+            }
             let turn = |circle: &Circle| sweep(circle.center, true, before(i), lines[i][0]);
-            piece.circle.is_some_and(|c| before(i) != lines[i][0] && turn(&circles[c]) > span(&circles[c], piece) + PI)
+            piece.circle.is_some_and(|c| turn(&circles[c]) > span(&circles[c], piece) + PI)
         };
         let kept: Vec<Touched> = (0..touched.len()).filter(|&i| !passed(i)).map(|i| touched[i]).collect();
         if kept.len() < touched.len() && kept.len() > 1 {

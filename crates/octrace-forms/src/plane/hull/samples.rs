@@ -76,6 +76,10 @@ pub(super) fn samples<'a>(contours: impl Iterator<Item = &'a Contour>) -> (Vec<C
     (circles, samples)
 }
 
+pub(super) fn coord(p: Vec2) -> Coord<f64> {
+    Coord { x: p.x, y: p.y }
+}
+
 /// The corners of the convex hull, counter-clockwise, none on a line between others: Andrew's monotone chain.
 pub(super) fn convex(mut samples: Vec<Sample>) -> Vec<Sample> {
     // Where points coincide one on a circle comes first and stays.
@@ -93,11 +97,10 @@ pub(super) fn convex(mut samples: Vec<Sample>) -> Vec<Sample> {
 
 /// The right side of the hull of sorted points, without the last of them.
 fn chain(samples: impl Iterator<Item = Sample>) -> Vec<Sample> {
-    let coord = |s: &Sample| Coord { x: s.at.x, y: s.at.y };
     let mut chain: Vec<Sample> = Vec::new();
     for next in samples {
         while let [.., a, b] = &chain[..] {
-            if orient2d(coord(a), coord(b), coord(&next)) > 0.0 {
+            if orient2d(coord(a.at), coord(b.at), coord(next.at)) > 0.0 {
                 break;
             }
             chain.pop();

@@ -1,6 +1,9 @@
 //! Hulls that a person can check by hand.
 
 use super::*;
+use crate::Tolerance;
+use crate::plane::combine;
+use octrace::BoolOp;
 
 fn p(x: f64, y: f64) -> Vec2 {
     Vec2::new(x, y)
@@ -66,4 +69,19 @@ fn arcs_that_end() {
     // Two halves of one circle are the circle.
     let other = half.moved(&crate::plane::Affine2::scale(p(-1.0, 1.0)), crate::Tolerance::default());
     check(&[half, other], 4.0 * PI, 1);
+}
+
+#[test]
+fn an_arc_touched_just_beside_its_end() {
+    // The lens begins at a corner that another circle shares; the tangent from the great disc touches it 0.3 degrees later.
+    let lens = combine(BoolOp::Intersection, &[&disc(2.0, 4.0, 2.0), &disc(3.0, 3.0, 1.0)]).expect("it is small");
+    let mut turned = lens.clone();
+    turned.contours[0].rotate_left(1);
+    for (lens, order) in [lens, turned].iter().flat_map(|lens| [[0, 1, 2], [2, 1, 0]].map(|order| (lens, order))) {
+        let discs = [disc(4.0, -4.0, 3.0), disc(0.0, 0.0, 1.0), lens.clone()];
+        let around = hull(order.map(|i| &discs[i]));
+        let fine = hull(&discs.each_ref().map(|d| d.polygonised(Tolerance { relative: 1e-9 })));
+        assert!((around.area() - fine.area()).abs() < 1e-6, "{} {} {around:?}", around.area(), fine.area());
+        assert!(around.is_convex(), "{around:?}");
+    }
 }
