@@ -264,3 +264,61 @@ proptest! {
         }
     }
 }
+
+/// More than a hundred letters, so that the reader copies it where it comes again.
+const HOLDER: &str = "difference() {\n\t#translate([1, 2, 3.5]) cube(size = [1, 2, 3], center = true);\n\
+    \tcolor(\"red\", alpha = 0.5) { sphere(r = 2.25); polyhedron([[0, 0, 0], [1, 2, 3]], [[0, 1]]); }\n}\n";
+
+#[test]
+fn what_is_repeated_is_what_it_would_be_if_it_were_not() {
+    let outer = format!("group() {{\n{HOLDER}sphere(3);\nmirror([1, 0, 0]) {HOLDER}}}\n");
+    let text = [HOLDER, &outer, "cube();\n", HOLDER, &outer, &outer, "rotate([0, 0, 9]) ", &outer, HOLDER].concat();
+    let source = Source::new("test.csg", text.as_str());
+    let ast = sound(&text);
+    // A comment of another length in each keeps the reader from seeing that they are alike.
+    let mut pieces = text.split("2.25").peekable();
+    let mut different = String::new();
+    for count in 0.. {
+        let Some(piece) = pieces.next() else { break };
+        different += piece;
+        if pieces.peek().is_some() {
+            different += &format!("2.25/*{}*/", "-".repeat(count));
+        }
+    }
+    let unlike = sound(&different);
+    assert_eq!(ast.len(), 3 * 6 + 4 * 15 + 2, "{}", print(&ast));
+    assert!(ast.same_tree(&unlike));
+    assert_eq!(print(&ast), print(&unlike));
+    for (node, same) in ast.nodes().zip(unlike.nodes()) {
+        assert_eq!(source.slice(ast.name_at(node)), ast.name(node));
+        let other = Source::new("other.csg", different.as_str());
+        let without_comments = |text: &str| {
+            let mut words = text.split("/*");
+            let first = words.next().unwrap_or_default().to_owned();
+            words.fold(first, |all, word| all + word.split_once("*/").map_or("", |(_, rest)| rest))
+        };
+        assert_eq!(source.slice(ast.at(node)), without_comments(other.slice(unlike.at(same))));
+        for (arg, same) in ast.args(node).iter().zip(unlike.args(same)) {
+            assert_eq!(source.slice(arg.name_at), other.slice(same.name_at));
+            assert_eq!(source.slice(arg.at), without_comments(other.slice(same.at)));
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_of_every_copy() {
+    let wrong = HOLDER.replace("sphere(r = 2.25);", "sphere(r = 2.25;");
+    let found = complaints(&wrong.repeat(3));
+    assert_eq!(found.len(), 3, "{found:?}");
+    let evaluated = HOLDER.replace("sphere(r = 2.25);", "sphere(r = a + 1);");
+    assert_eq!(parse(&Source::new("test.csg", evaluated.repeat(3).as_str())).diagnostics[0].notes.len(), 2);
+}
+
+#[test]
+fn deep_trees_that_begin_alike_are_read_in_one_go() {
+    // Every level begins like the one around it, and every tree differs at its very heart.
+    let level = "translate([100000000, 200000000, 300000000]) rotate([100000000, 200000000, 300000000]) {\n";
+    let deep = |heart: u32| format!("{}sphere({heart});{}\n", level.repeat(3000), "}".repeat(3000));
+    let text: String = (0..20).map(deep).collect();
+    assert_eq!(sound(&text).len(), 20 * 6001);
+}

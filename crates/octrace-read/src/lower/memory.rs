@@ -3,7 +3,7 @@
 use super::language::{self, Kind};
 use super::looks::Look;
 use super::operand::Operand;
-use crate::syntax::{Ast, Modifiers, NodeId};
+use crate::syntax::{Ast, Modifiers, NodeId, Step};
 use rustc_hash::FxHashMap;
 
 /// What repeated subtrees became.
@@ -34,16 +34,33 @@ pub(super) struct Known {
 impl Memory {
     /// With nothing remembered yet, for this tree.
     pub fn of(ast: &Ast) -> Self {
-        let mut hashes = ast.subtree_hashes();
-        for node in ast.nodes().rev() {
-            let kind = language::find(ast.name(node)).map(|word| word.kind);
-            let is_setting = matches!(kind, Some(Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background));
-            let is_alone = ast.subtree_len(node) < 2 || ast.modifiers(node) != Modifiers::NONE;
-            let is_pure = |child| hashes[ast.index(child)] != IMPURE;
-            if is_setting || ast.modifiers(node) != Modifiers::NONE || !ast.children(node).all(is_pure) {
-                hashes[ast.index(node)] = IMPURE;
-            } else if is_alone {
-                hashes[ast.index(node)] = LEAF;
+        let words: Vec<_> = ast.names().map(language::find).collect();
+        let is_setting = |node| {
+            let kind = words[ast.name_index(node)].map(|word| word.kind);
+            matches!(kind, Some(Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background))
+        };
+        // What the subtrees say, and which of them may be remembered by that.
+        let (mut said, mut hashes) = (vec![0; ast.len()], vec![0; ast.len()]);
+        for step in ast.bottom_up() {
+            match step {
+                Step::Node(node) => {
+                    let i = ast.index(node);
+                    said[i] = ast.subtree_hash(node, |child| said[ast.index(child)]);
+                    let is_pure = |child| hashes[ast.index(child)] != IMPURE;
+                    let is_marked = ast.modifiers(node) != Modifiers::NONE;
+                    hashes[i] = if is_marked || is_setting(node) || !ast.children(node).all(is_pure) {
+                        IMPURE
+                    } else if ast.subtree_len(node) < 2 {
+                        LEAF
+                    } else {
+                        said[i].max(LEAF + 1)
+                    };
+                }
+                Step::Copy { of, top } => {
+                    let (from, to, len) = (ast.index(of), ast.index(top), ast.subtree_len(of));
+                    said.copy_within(from..from + len, to);
+                    hashes.copy_within(from..from + len, to);
+                }
             }
         }
         let mut times: FxHashMap<u64, u32> = FxHashMap::default();

@@ -135,7 +135,7 @@ pub struct Arg {
     pub at: SourceRange,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct NodeData {
     pub name: u32,
     pub modifiers: Modifiers,
@@ -157,6 +157,15 @@ pub struct Ast {
     pub(super) numbers: Vec<f64>,
     pub(super) texts: String,
     pub(super) names: Names,
+    /// Subtrees that were copied, in the order of the copies.
+    pub(super) repeats: Vec<Repeat>,
+}
+
+/// A subtree that is written once more, letter for letter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Repeat {
+    pub original: NodeId,
+    pub copy: NodeId,
 }
 
 impl Ast {
@@ -258,23 +267,24 @@ impl Ast {
         node.0 as usize
     }
 
-    /// For every node a hash of what its subtree says, wherever it is written; larger than 1.
-    pub(crate) fn subtree_hashes(&self) -> Vec<u64> {
-        let mut hashes = vec![0; self.len()];
-        for node in self.nodes().rev() {
-            let mut hasher = FxHasher::default();
-            let data = self.data(node);
-            (data.name, data.modifiers.0, data.args.len).hash(&mut hasher);
-            for arg in self.args(node) {
-                arg.name.hash(&mut hasher);
-                self.hash_value(arg.value, &mut hasher);
-            }
-            for child in self.children(node) {
-                hashes[child.0 as usize].hash(&mut hasher);
-            }
-            hashes[node.0 as usize] = hasher.finish().max(2);
+    /// All nodes, each after its children; of subtrees that are written once more, letter for letter, only the topmost.
+    pub(crate) fn bottom_up(&self) -> BottomUp<'_> {
+        BottomUp { ast: self, next: 0, open: Vec::new(), repeats: self.repeats.iter() }
+    }
+
+    /// A hash of what the subtree says, wherever it is written, given those of the children.
+    pub(crate) fn subtree_hash(&self, node: NodeId, hash_of: impl Fn(NodeId) -> u64) -> u64 {
+        let mut hasher = FxHasher::default();
+        let data = self.data(node);
+        (data.name, data.modifiers.0, data.args.len).hash(&mut hasher);
+        for arg in self.args(node) {
+            arg.name.hash(&mut hasher);
+            self.hash_value(arg.value, &mut hasher);
         }
-        hashes
+        for child in self.children(node) {
+            hash_of(child).hash(&mut hasher);
+        }
+        hasher.finish()
     }
 
     fn hash_value(&self, value: Value, hasher: &mut FxHasher) {
@@ -299,8 +309,18 @@ impl Ast {
         }
     }
 
+    /// The subtree that this one is a copy of, or itself.
+    fn original(&self, node: NodeId) -> NodeId {
+        let repeat = self.repeats.binary_search_by_key(&node, |repeat| repeat.copy);
+        repeat.map_or(node, |i| self.repeats[i].original)
+    }
+
     /// Whether two subtrees say the same.
     pub(crate) fn same_subtree(&self, a: NodeId, b: NodeId) -> bool {
+        let [a, b] = [a, b].map(|node| self.original(node));
+        if a == b {
+            return true;
+        }
         let len = self.subtree_len(a) as u32;
         let same_length = len == self.subtree_len(b) as u32;
         same_length && (0..len).all(|i| self.same_node(NodeId(a.0 + i), self, NodeId(b.0 + i), (a.0, b.0)))
@@ -375,6 +395,53 @@ impl Iterator for Siblings<'_> {
             self.next = self.ast.data(node).end;
             node
         })
+    }
+}
+
+/// A step through all nodes, children first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// A node whose children are behind.
+    Node(NodeId),
+    /// A subtree that says what another one says, which is behind. It has as many nodes.
+    Copy {
+        /// The other one.
+        of: NodeId,
+        /// This one.
+        top: NodeId,
+    },
+}
+
+/// See [`Ast::bottom_up`].
+#[derive(Clone, Debug)]
+pub(crate) struct BottomUp<'a> {
+    ast: &'a Ast,
+    next: u32,
+    open: Vec<NodeId>,
+    repeats: std::slice::Iter<'a, Repeat>,
+}
+
+impl Iterator for BottomUp<'_> {
+    type Item = Step;
+    fn next(&mut self) -> Option<Step> {
+        loop {
+            if self.open.last().is_some_and(|&node| self.ast.data(node).end == self.next) {
+                return self.open.pop().map(Step::Node);
+            }
+            let node = NodeId(self.next);
+            if self.next as usize == self.ast.len() {
+                return None;
+            }
+            if let Some(&Repeat { original, copy }) = self.repeats.as_slice().first()
+                && copy == node
+            {
+                self.repeats.next();
+                self.next = self.ast.data(node).end;
+                return Some(Step::Copy { of: original, top: copy });
+            }
+            self.open.push(node);
+            self.next += 1;
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Builds an [`Ast`] from the order of a file: open a node, give it arguments, fill it, close it.
 
-use super::ast::{Arg, Ast, Modifiers, NodeData, NodeId, Slice, Stored, Value};
+use super::ast::{Arg, Ast, Modifiers, NodeData, NodeId, Repeat, Slice, Stored, Value};
 use crate::SourceRange;
 
 /// Builds an [`Ast`]. The parser drives it; so may anyone who wants to write a file.
@@ -78,6 +78,30 @@ impl AstBuilder {
             let end = self.ast.nodes.len() as u32;
             self.ast.nodes[id.0 as usize].end = end;
         }
+    }
+
+    /// Adds a copy of a closed subtree, which is written once more from `start` on.
+    pub(super) fn repeat(&mut self, original: NodeId, start: u32) {
+        let Ast { nodes, args, repeats, .. } = &mut self.ast;
+        let copy = NodeId(nodes.len() as u32);
+        let NodeData { at, args: Slice { first: first_arg, .. }, end, .. } = nodes[original.0 as usize];
+        let shift = start - at.start;
+        let moved = |at: SourceRange| SourceRange::new(at.start + shift, at.end + shift);
+        nodes.extend_from_within(original.0 as usize..end as usize);
+        // The arguments of a subtree are side by side.
+        let arg_shift = args.len() as u32 - first_arg;
+        let mut last_arg = first_arg;
+        for node in &mut nodes[copy.0 as usize..] {
+            last_arg += node.args.len;
+            (node.name_at, node.at) = (moved(node.name_at), moved(node.at));
+            node.args.first += arg_shift;
+            node.end += copy.0 - original.0;
+        }
+        args.extend_from_within(first_arg as usize..last_arg as usize);
+        for arg in &mut args[(first_arg + arg_shift) as usize..] {
+            (arg.name_at, arg.at) = (moved(arg.name_at), moved(arg.at));
+        }
+        repeats.push(Repeat { original, copy });
     }
 
     /// Says where a node ends in the file.

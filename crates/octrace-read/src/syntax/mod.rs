@@ -18,8 +18,10 @@ mod cursor;
 mod locate;
 mod parse;
 mod print;
+mod repeats;
 mod value;
 
+pub(crate) use ast::Step;
 pub use ast::{Arg, Ast, Modifiers, NodeId, Rows, Siblings, Value, View};
 pub use build::AstBuilder;
 pub use locate::element_range;

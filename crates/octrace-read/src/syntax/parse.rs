@@ -3,6 +3,7 @@
 use super::ast::{Ast, Modifiers, NodeId};
 use super::build::AstBuilder;
 use super::cursor::{Cursor, UnclosedComment};
+use super::repeats::{Beginning, Repeats};
 use crate::diagnostic::{Checked, Collector, Diagnostic};
 use crate::{Source, SourceRange};
 
@@ -22,6 +23,7 @@ pub(crate) fn parse_into(source: &Source, diagnostics: &mut Collector) -> Ast {
     let mut parser = Parser {
         cursor: Cursor::new(source.text(), start),
         builder: AstBuilder::new(),
+        repeats: Repeats::of(source.text()),
         open: Vec::new(),
         evaluated: Vec::new(),
         ended: false,
@@ -72,9 +74,18 @@ fn is_evaluated(word: &str) -> bool {
 #[derive(Clone, Copy, Debug)]
 enum Open {
     /// A block, opened by the brace at this offset.
-    Block { node: NodeId, brace: u32 },
+    Block { entered: Entered, brace: u32 },
     /// A node followed by its only child.
-    Chain { node: NodeId },
+    Chain { entered: Entered },
+}
+
+/// A node, and what there was when it began.
+#[derive(Clone, Copy, Debug)]
+struct Entered {
+    node: NodeId,
+    beginning: Option<Beginning>,
+    /// How much had been found wrong.
+    wrong: usize,
 }
 
 /// Stops what is being parsed: there is an error, and it has been reported.
@@ -84,6 +95,7 @@ pub(super) struct Reported;
 pub(super) struct Parser<'s, 'd> {
     pub(super) cursor: Cursor<'s>,
     pub(super) builder: AstBuilder,
+    repeats: Repeats<'s>,
     open: Vec<Open>,
     /// Places where the file asks for evaluation.
     evaluated: Vec<SourceRange>,
@@ -167,9 +179,8 @@ impl Parser<'_, '_> {
         let at = self.here();
         self.cursor.bump();
         match self.open.pop() {
-            Some(Open::Block { node, .. }) => {
-                self.builder.end_at(node, at.end);
-                self.builder.close_node();
+            Some(Open::Block { entered, .. }) => {
+                self.close(entered);
                 self.close_chains();
             }
             Some(Open::Chain { .. }) | None => {
@@ -180,11 +191,27 @@ impl Parser<'_, '_> {
 
     /// Ends the nodes whose only child has just ended.
     fn close_chains(&mut self) {
-        while let Some(&Open::Chain { node }) = self.open.last() {
+        while let Some(&Open::Chain { entered }) = self.open.last() {
             self.open.pop();
-            self.builder.end_at(node, self.cursor.pos());
-            self.builder.close_node();
+            self.close(entered);
         }
+    }
+
+    /// Ends a node here. It is kept in mind, for its text may come again, if nothing is wrong with it.
+    fn close(&mut self, Entered { node, beginning, wrong }: Entered) {
+        let end = self.cursor.pos();
+        self.builder.end_at(node, end);
+        self.builder.close_node();
+        if let Some(beginning) = beginning
+            && self.wrong() == wrong
+        {
+            self.repeats.keep(node, beginning, end);
+        }
+    }
+
+    /// How much was found wrong so far.
+    fn wrong(&self) -> usize {
+        self.diagnostics.count() + self.evaluated.len()
     }
 
     fn unclosed_blocks(&mut self) {
@@ -206,8 +233,8 @@ impl Parser<'_, '_> {
             }
             self.report(diagnostic);
         }
-        while let Some(Open::Block { node, .. } | Open::Chain { node }) = self.open.pop() {
-            self.builder.end_at(node, self.cursor.pos());
+        while let Some(Open::Block { entered, .. } | Open::Chain { entered }) = self.open.pop() {
+            self.builder.end_at(entered.node, self.cursor.pos());
         }
     }
 
@@ -216,18 +243,26 @@ impl Parser<'_, '_> {
         // Once for each node of a chain.
         loop {
             let start = self.cursor.pos();
+            let beginning = self.repeats.beginning(start);
+            if let Some((node, length)) = beginning.and_then(|beginning| self.repeats.find(beginning)) {
+                self.builder.repeat(node, start);
+                self.cursor.set_pos(start + length);
+                return Item::Ended;
+            }
+            let wrong = self.wrong();
             let Some(node) = self.head() else { return Item::Ended };
+            let entered = Entered { node, beginning, wrong };
             let end = self.cursor.pos();
             self.builder.end_at(node, end);
             self.skip_blanks();
             match self.cursor.peek() {
                 Some(b'{') => {
-                    self.open.push(Open::Block { node, brace: self.cursor.pos() });
+                    self.open.push(Open::Block { entered, brace: self.cursor.pos() });
                     self.cursor.bump();
                     return Item::Opened;
                 }
-                Some(b'%' | b'#' | b'!' | b'*') => self.open.push(Open::Chain { node }),
-                Some(_) if self.cursor.at_name() => self.open.push(Open::Chain { node }),
+                Some(b'%' | b'#' | b'!' | b'*') => self.open.push(Open::Chain { entered }),
+                Some(_) if self.cursor.at_name() => self.open.push(Open::Chain { entered }),
                 next => {
                     self.builder.close_node();
                     match next {
