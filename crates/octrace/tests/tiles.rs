@@ -5,7 +5,7 @@ mod common;
 use common::{cases, lattice_point, lattice_solid};
 use octrace::exec::Exec;
 use octrace::octree::BuildOptions;
-use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX};
+use octrace::trace::{Backend, EightRays, LANES, RayTile, RayTo, Scratch, TILE_PX};
 use octrace::{Accel, Camera, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
 use proptest::prelude::*;
 
@@ -71,6 +71,16 @@ proptest! {
     }
 }
 
+/// Up to eight rays; perhaps without the first one.
+fn eight(rays: &[RayTo], without_first: bool) -> EightRays {
+    let mut eight = EightRays::NONE;
+    for (lane, RayTo { ray, end }) in rays.iter().enumerate() {
+        eight.put(lane, ray, *end);
+    }
+    eight.lanes &= !u8::from(without_first);
+    eight
+}
+
 /// Compares a stream of rays with each ray by itself, without an octree.
 fn compare_stream(bodies: &[Solid], octree: BuildOptions, rays: &[RayTo]) -> Result<(), TestCaseError> {
     let expected = tracer(bodies, &TracerOptions { accel: Accel::None, ..TracerOptions::default() });
@@ -84,9 +94,22 @@ fn compare_stream(bodies: &[Solid], octree: BuildOptions, rays: &[RayTo]) -> Res
         }
         let mut blocked = vec![false; rays.len()];
         tested.blocked_into(rays, backend, &mut tile, &mut scratch, &mut blocked);
-        for (RayTo { ray, end }, blocked) in rays.iter().zip(blocked) {
-            let alone = expected.first_body_hit(ray, *end, &mut Scratch::default());
-            prop_assert_eq!(blocked, alone.is_some(), "{:?}, {:?} up to {}", backend, ray, end);
+        // By eights, of which every third holds one ray less.
+        let eights: Vec<EightRays> = rays.chunks(LANES).enumerate().map(|(i, rays)| eight(rays, i % 3 == 0)).collect();
+        let mut blocked_lanes = vec![0xAA; eights.len()];
+        tested.eights_blocked_into(&eights, backend, &mut tile, &mut scratch, &mut blocked_lanes);
+        for (index, RayTo { ray, end }) in rays.iter().enumerate() {
+            let alone = expected.first_body_hit(ray, *end, &mut Scratch::default()).is_some();
+            prop_assert_eq!(blocked[index], alone, "{:?}, {:?} up to {}", backend, ray, end);
+            let (number, lane) = (index / LANES, index % LANES);
+            let asked = eights[number].lanes >> lane & 1 != 0;
+            prop_assert_eq!(
+                blocked_lanes[number] >> lane & 1 != 0,
+                asked && alone,
+                "{:?}, {:?} by eights",
+                backend,
+                ray
+            );
         }
     }
     prop_assert_eq!(scratch.counters.leaks, 0);

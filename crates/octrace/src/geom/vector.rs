@@ -118,6 +118,7 @@ impl From<Vec3> for [f64; 3] {
 
 impl Index<usize> for Vec3 {
     type Output = f64;
+    #[inline]
     fn index(&self, axis: usize) -> &f64 {
         match axis {
             0 => &self.x,
@@ -129,6 +130,7 @@ impl Index<usize> for Vec3 {
 }
 
 impl IndexMut<usize> for Vec3 {
+    #[inline]
     fn index_mut(&mut self, axis: usize) -> &mut f64 {
         match axis {
             0 => &mut self.x,

@@ -18,6 +18,6 @@ pub use cells::OctreeCell;
 pub use options::{Accel, TracerOptions, UnknownAccel};
 pub use report::{RayReport, VisitedCell};
 pub use stats::{Counters, TracerStats};
-pub use tile::{Backend, Brightness, RayTile, RayTo, TILE_PX, TileHit, Tiles, Told};
-pub(crate) use tile::{EightHits, EightPoints, EightRays, PACKET_PX, PACKETS, Task, corner_of, lane_of, lanes, points};
+pub use tile::{Backend, Brightness, EightRays, LANES, RayTile, RayTo, Stored, TILE_PX, TileHit, Tiles, Told};
+pub(crate) use tile::{EightHits, EightPoints, PACKET_PX, PACKETS, Task, corner_of, lane_of, lanes, points};
 pub use tracer::{Scratch, SurfacePoint, Tracer};

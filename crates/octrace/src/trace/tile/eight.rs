@@ -12,12 +12,14 @@ use crate::trace::roots::hit_of;
 
 /// Eight rays, each followed up to a parameter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EightRays {
+pub struct EightRays {
+    /// Where they start: x, y and z.
     pub origin: [Stored; 3],
+    /// Where they go: x, y and z, of any length.
     pub direction: [Stored; 3],
     /// Crossings beyond these parameters do not count.
     pub end: Stored,
-    /// The lanes that hold rays; in the others there are numbers that do not matter.
+    /// The lanes that hold rays, a bit for each; what the others hold does not matter, but numbers unlike the rest cost time.
     pub lanes: u8,
 }
 

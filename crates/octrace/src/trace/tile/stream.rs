@@ -103,6 +103,22 @@ impl Tracer {
         (tile.eights, tile.met) = (eights, met);
     }
 
+    /// As [`blocked_into`](Self::blocked_into), of rays by eights: a bit for each lane. Whoever makes rays by eights saves
+    /// putting them together; those of an eight, and eights one after another, should be near each other.
+    ///
+    /// # Panics
+    /// If the slice is shorter than `rays`.
+    pub fn eights_blocked_into(
+        &self,
+        rays: &[EightRays],
+        backend: Backend,
+        tile: &mut RayTile,
+        scratch: &mut Scratch,
+        blocked: &mut [u8],
+    ) {
+        self.eights_met(0..self.bodies.len(), rays, backend, tile, scratch, &mut blocked[..rays.len()]);
+    }
+
     /// As [`first_hits_into`](Self::first_hits_into), by eights, with some bodies.
     pub(crate) fn eight_hits(
         &self,

@@ -19,13 +19,13 @@ pub(crate) use vector::{Number, Vector};
 
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-/// How many lanes there are.
-pub(crate) const LANES: usize = 8;
+/// How many rays are traced at once.
+pub const LANES: usize = 8;
 
 /// Eight numbers in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(64))]
-pub(crate) struct Stored(pub [f64; LANES]);
+pub struct Stored(pub [f64; LANES]);
 
 /// Something to do that is compiled as a function of its own, for an instruction set. Its `run` must be `#[inline(always)]`.
 pub(crate) trait Kernel {
