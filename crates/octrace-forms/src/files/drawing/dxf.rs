@@ -36,6 +36,10 @@ pub(super) fn read(bytes: &[u8], options: &DrawingOptions) -> Result<Drawing, Dr
     Ok(reader.finish())
 }
 
+/// Flags of old-style polylines that are meshes.
+const POLYGON_MESH: i32 = 16;
+const POLYFACE_MESH: i32 = 64;
+
 /// The values of an entity that matter, by their codes.
 #[derive(Default)]
 struct Entity {
@@ -179,6 +183,11 @@ impl<'a> Reader<'a> {
                 Vec::new()
             }
             "SEQEND" => match self.polyline.take() {
+                // A net of faces in space, whose corners are in no such order.
+                Some((flags, _)) if flags & (POLYGON_MESH | POLYFACE_MESH) != 0 => {
+                    *self.passed_over.entry("POLYLINE (mesh)".to_string()).or_default() += 1;
+                    Vec::new()
+                }
                 Some((flags, corners)) => self.polyline(&corners, flags & 1 != 0),
                 None => Vec::new(),
             },

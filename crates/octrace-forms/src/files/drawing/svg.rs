@@ -3,7 +3,7 @@
 //! As OpenSCAD 2021.01 reads it: fills are even-odd whatever is said, also of what has none; what has open ends is the
 //! stroke of a pen. Beyond that, `use` is followed.
 
-use super::stroke::{Cap, Part, covered};
+use super::stroke::{Cap, Join, Part, covered};
 use super::svg_page::{Map, Page};
 use super::svg_path::{self, Subpath};
 use super::{Drawing, DrawingError, DrawingOptions, DrawingWarning, MOST_PIECES};
@@ -15,6 +15,9 @@ use svgtypes::{Length, LengthUnit, PointsParser};
 
 /// What is used may use something else, so deep.
 const DEEPEST: usize = 16;
+
+/// Chords for the round ends and corners of strokes where chords are wanted. OpenSCAD has them as fine as its numbers are.
+const CHORDS_OF_A_DISC: u32 = 360;
 
 /// Paths whose ends are farther apart than this are open.
 const OPEN: f64 = 0.1;
@@ -137,12 +140,13 @@ impl<'a, 'i> Reader<'a, 'i> {
             pen.finish()
         };
         let mut shapes = vec![draw(&filled)];
-        let (width, cap) = pen_of(node);
-        for part in stroked.iter().flat_map(|path| covered(&path.chords(), width, cap)) {
-            shapes.push(draw(&[match part {
+        let (width, cap, join) = pen_of(node);
+        for part in stroked.iter().flat_map(|path| covered(&path.chords(), width, cap, join)) {
+            let subpath = match part {
                 Part::Polygon(corners) => Subpath::polygon(corners),
-                Part::Disc(center, radius) => Subpath::ellipse(center, radius, radius, 40),
-            }]));
+                Part::Disc(center, radius) => Subpath::ellipse(center, radius, radius, CHORDS_OF_A_DISC),
+            };
+            shapes.push(draw(&[subpath]));
         }
         shapes.retain(|shape| !shape.is_empty());
         self.count += shapes.iter().flatten().map(Vec::len).sum::<usize>();
@@ -180,8 +184,8 @@ fn points<'a>(node: Node<'a, '_>) -> impl Iterator<Item = Vec2> + use<'a> {
     PointsParser::from(node.attribute("points").unwrap_or_default()).map(|(x, y)| Vec2::new(x, y))
 }
 
-/// Width and ends of an element's stroke: by its attributes or its style.
-fn pen_of(node: Node) -> (f64, Cap) {
+/// Width, ends and corners of an element's stroke: by its attributes or its style.
+fn pen_of(node: Node) -> (f64, Cap, Join) {
     let style = |name: &str| {
         let properties = node.attribute("style").unwrap_or_default().split(';');
         let mut pairs = properties.filter_map(|property| property.split_once(':'));
@@ -194,7 +198,12 @@ fn pen_of(node: Node) -> (f64, Cap) {
         "round" => Cap::Round,
         _ => Cap::Square,
     };
-    (if width.is_finite() && width >= 0.01 { width } else { 1.0 }, cap)
+    let join = match value("stroke-linejoin") {
+        "round" => Join::Round,
+        "bevel" => Join::Cut,
+        _ => Join::Pointed,
+    };
+    (if width.is_finite() && width >= 0.01 { width } else { 1.0 }, cap, join)
 }
 
 fn box_diagonal(points: impl Iterator<Item = Vec2>) -> f64 {
