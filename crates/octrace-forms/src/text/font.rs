@@ -1,12 +1,14 @@
 //! Fonts: which one is meant, and what its glyphs look like.
 
 use super::TextError;
+use super::layout::UNITS_PER_EM;
 use crate::curve::Pen;
 use fontdb::{Database, FaceInfo, Style};
 use octrace::Vec2;
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::{DrawSettings, HintingInstance, HintingOptions, OutlinePen};
 use skrifa::prelude::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
+use std::sync::OnceLock;
 
 /// What to do where OpenSCAD's usual font is missing.
 pub(super) const LIBERATION_HELP: &str = "install the Liberation fonts (Debian: `apt install fonts-liberation`)";
@@ -172,13 +174,14 @@ pub(super) struct Font {
     pub shaped: harfrust::Font,
     bytes: Vec<u8>,
     index: u32,
+    hints: OnceLock<Option<HintingInstance>>,
 }
 
 impl Font {
     pub fn new(bytes: Vec<u8>, index: u32, name: String) -> Option<Self> {
         FontRef::from_index(&bytes, index).ok()?;
         let shaped = harfrust::Font::new(bytes.clone(), index)?;
-        Some(Self { name, shaped, bytes, index })
+        Some(Self { name, shaped, bytes, index, hints: OnceLock::new() })
     }
 
     /// The glyphs' outlines.
@@ -186,22 +189,52 @@ impl Font {
         let bad = || TextError::BadFont { font: self.name.clone() };
         let font = FontRef::from_index(&self.bytes, self.index).map_err(|_| bad())?;
         let units = font.metrics(Size::unscaled(), LocationRef::default()).units_per_em;
-        if units == 0 { Err(bad()) } else { Ok(Glyphs { font, units: f64::from(units) }) }
+        if units == 0 {
+            return Err(bad());
+        }
+        // Many fonts are for whole numbers of pixels.
+        let is_whole = !font.outline_glyphs().fractional_size_hinting();
+        let size = Size::new(if is_whole { GRID.round() } else { GRID });
+        // The instructions of a font that are wrong are not followed.
+        let instance = || {
+            HintingInstance::new(&font.outline_glyphs(), size, LocationRef::default(), HintingOptions::default()).ok()
+        };
+        let hints = self.hints.get_or_init(instance).as_ref().filter(|hints| hints.is_enabled());
+        Ok(Glyphs { font, units: f64::from(units), size, hints })
     }
 }
+
+/// The pixels of an em where OpenSCAD has FreeType draw: 100 dots an inch, and 10^5 times 1/64 of a point.
+const GRID: f32 = 138_889.0 / 64.0;
 
 /// Outlines by glyph.
 pub(super) struct Glyphs<'a> {
     pub font: FontRef<'a>,
     units: f64,
+    /// What OpenSCAD has FreeType draw.
+    size: Size,
+    /// The font's instructions for that, if it has any for so large a size.
+    hints: Option<&'a HintingInstance>,
 }
 
 impl Glyphs<'_> {
-    /// The outline of a glyph in ems; without strokes where it has none.
+    /// The outline of a glyph in ems, as the font has it; without strokes where it has none.
     pub fn outline(&self, glyph: u32) -> GlyphOutline {
-        let mut recorder = Recorder { units: self.units, strokes: Vec::new() };
+        self.draw(glyph, DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), self.units)
+    }
+
+    /// The outline of a glyph as OpenSCAD has it: at 2170 pixels an em, as the font's instructions move it, in whole 64ths.
+    pub fn fitted_outline(&self, glyph: u32) -> GlyphOutline {
+        let settings = match self.hints {
+            Some(hints) => DrawSettings::hinted(hints, false),
+            None => DrawSettings::unhinted(self.size, LocationRef::default()),
+        };
+        self.draw(glyph, settings, UNITS_PER_EM / 64.0)
+    }
+
+    fn draw(&self, glyph: u32, settings: DrawSettings, units: f64) -> GlyphOutline {
+        let mut recorder = Recorder { units, strokes: Vec::new() };
         if let Some(glyph) = self.font.outline_glyphs().get(GlyphId::new(glyph)) {
-            let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
             // A glyph that cannot be drawn is drawn as far as it can be.
             let _ = glyph.draw(settings, &mut recorder);
         }
@@ -251,7 +284,7 @@ impl GlyphOutline {
     }
 }
 
-/// Takes what the font draws, from font units to ems.
+/// Takes what the font draws, in units of which an em has so many, to ems.
 struct Recorder {
     units: f64,
     strokes: Vec<Stroke>,

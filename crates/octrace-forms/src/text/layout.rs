@@ -16,6 +16,9 @@ use std::cell::OnceCell;
 /// Ems in a text of size 1: 100 dots an inch, 72 points an inch.
 pub(super) const EM: f64 = 100.0 / 72.0;
 
+/// 64ths of pixels in an em.
+pub(super) const UNITS_PER_EM: f64 = EM * 1e5;
+
 /// What OpenSCAD divides advances by, as a share of what it should.
 const SHRINK: f64 = 1000.0 / 1024.0;
 
@@ -41,9 +44,9 @@ pub(super) fn lay_out(
 ) -> Result<Vec<PlacedGlyph>, TextError> {
     let glyphs = font.glyphs()?;
     let (shaped, is_vertical) = shape(spec, font, &glyphs, warnings)?;
-    let outlines: Vec<GlyphOutline> = shaped.iter().map(|s| glyphs.outline(s.glyph)).collect();
+    let fitted: Vec<GlyphOutline> = shaped.iter().map(|s| glyphs.fitted_outline(s.glyph)).collect();
     let (mut width, mut ascent, mut descent) = (0.0_f64, 0.0_f64, 0.0_f64);
-    for (shaped, outline) in shaped.iter().zip(&outlines) {
+    for (shaped, outline) in shaped.iter().zip(&fitted) {
         let (low, high) = outline.control_box().unwrap_or_default();
         if is_vertical {
             width = width.max(pixels_up(high.x) - pixels_down(low.x));
@@ -75,6 +78,10 @@ pub(super) fn lay_out(
             0.0
         }
     };
+    let outlines = match spec.facets {
+        Some(_) => fitted,
+        None => shaped.iter().map(|s| glyphs.outline(s.glyph)).collect(),
+    };
     let mut at = Vec2::new(x, y);
     let placed = shaped.iter().zip(outlines).map(|(shaped, outline)| {
         let place = at + shaped.offset;
@@ -86,7 +93,7 @@ pub(super) fn lay_out(
 
 /// A coordinate in ems, up to the next whole pixel, in OpenSCAD's measure.
 fn pixels_up(ems: f64) -> f64 {
-    (ems * EM * 1e5 / 64.0).ceil() * 64.0 / 102_400.0
+    ((ems * UNITS_PER_EM).round() / 64.0).ceil() * 64.0 / 102_400.0
 }
 
 fn pixels_down(ems: f64) -> f64 {
@@ -117,8 +124,9 @@ fn shape(
     let shaper = if is_vertical && !vertical.is_known() { shaper.with_font_funcs(Some(&vertical)) } else { shaper };
     harfrust::shape(&shaper, &mut buffer, ShapeOptions::new()).map_err(|_| bad())?;
 
-    let ems = EM * SHRINK / f64::from(font.shaped.units_per_em().max(1));
-    let vector = |x: i32, y: i32| Vec2::new(f64::from(x), f64::from(y)) * ems;
+    let units = UNITS_PER_EM / f64::from(font.shaped.units_per_em().max(1));
+    let scaled = |x: i32| (f64::from(x) * units).round() / 1e5 * SHRINK;
+    let vector = |x: i32, y: i32| Vec2::new(scaled(x), scaled(y));
     let mut missing = String::new();
     let mut shaped = Vec::with_capacity(buffer.len());
     for (info, position) in buffer.glyph_infos().iter().zip(buffer.glyph_positions()) {
