@@ -308,7 +308,10 @@ fn old_polylines_have_arcs_and_unknown_entities_are_counted() {
     assert_eq!(drawing.warnings, [DrawingWarning::PassedOver { kind: "SPLINE".to_string(), count: 1 }]);
 
     // The corners of a net in space are no outline.
-    let net = dxf("", "0 POLYLINE 8 a 70 16 71 2 72 2 0 VERTEX 8 a 10 0 20 0 0 VERTEX 8 a 10 4 20 0 0 VERTEX 8 a 10 0 20 4 0 SEQEND 8 a");
+    let net = dxf(
+        "",
+        "0 POLYLINE 8 a 70 16 71 2 72 2 0 VERTEX 8 a 10 0 20 0 0 VERTEX 8 a 10 4 20 0 0 VERTEX 8 a 10 0 20 4 0 SEQEND 8 a",
+    );
     let drawing = read(DrawingFormat::Dxf, net.as_bytes(), &DrawingOptions::default()).unwrap();
     assert_eq!(drawing.shapes.iter().flatten().count(), 0);
     assert_eq!(drawing.warnings, [DrawingWarning::PassedOver { kind: "POLYLINE (mesh)".to_string(), count: 1 }]);
