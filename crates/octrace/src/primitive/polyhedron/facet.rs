@@ -63,8 +63,8 @@ pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> 
         let plane = FacePlane::fit(&coordinates);
         let warped = |p: &FacePlane| coordinates.iter().any(|&q| p.distance(q).abs() > tolerance);
         let pieces = cutter.cut(&corners, &coordinates, plane);
-        if let Some(plane) = plane.filter(warped) {
-            let pieces = across(&corners, &coordinates, plane).map_or(pieces, Vec::from);
+        if plane.filter(warped).is_some() {
+            let pieces = across(&corners, &coordinates).map_or(pieces, Vec::from);
             for corners in pieces {
                 triangles.push(Triangle { corners, face: planar.len() as u32 });
                 planar.push(corners.to_vec());
@@ -77,15 +77,19 @@ pub(super) fn triangulate(points: &[Vec3], faces: Vec<Face>, tolerance: f64) -> 
     (planar, triangles)
 }
 
-/// A convex quadrangle cut along the diagonal that is Delaunay's, seen along an axis, as OpenSCAD cuts it; `None`
-/// where both are, or the face is another.
-fn across(corners: &[u32], coordinates: &[Vec3], plane: FacePlane) -> Option<[[u32; 3]; 2]> {
-    let (&[a, b, c, d], &[pa, pb, pc, pd]) = (corners, flatten(coordinates, plane.normal).as_slice()) else {
-        return None;
-    };
-    let turn = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-    if [turn(pa, pb, pc), turn(pb, pc, pd), turn(pc, pd, pa), turn(pd, pa, pb)].iter().any(|&turn| turn <= 0.0) {
-        return None;
+/// A quadrangle cut as OpenSCAD's tessellator cuts it, seen along an axis: from its dent, or along the diagonal that is
+/// Delaunay's; where both are, as a sweep in the direction of the first coordinate cuts. `None` where the face is another.
+fn across(corners: &[u32], coordinates: &[Vec3]) -> Option<[[u32; 3]; 2]> {
+    let &[a, b, c, d] = corners else { return None };
+    let pieces = |from_a: bool| if from_a { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+    let seen = seen_by_sweep(coordinates);
+    let &[pa, pb, pc, pd] = seen.as_slice() else { return None };
+    let turns = [turn(pd, pa, pb), turn(pa, pb, pc), turn(pb, pc, pd), turn(pc, pd, pa)];
+    let mut dents = (0..4).filter(|&i| turns[i] <= 0.0);
+    match (dents.next(), dents.next()) {
+        (None, _) => {}
+        (Some(dent), None) => return Some(pieces(dent % 2 == 0)),
+        (Some(_), Some(_)) => return None,
     }
     // The angles at b and at d: with more than half a turn together the diagonal is between them.
     let angle = |at: [f64; 2], from: [f64; 2], to: [f64; 2]| {
@@ -95,13 +99,42 @@ fn across(corners: &[u32], coordinates: &[Vec3], plane: FacePlane) -> Option<[[u
     let ((cos_b, sin_b), (cos_d, sin_d)) = (angle(pb, pc, pa), angle(pd, pa, pc));
     let sum = sin_b * cos_d + cos_b * sin_d;
     let scale = 1e-9 * (sin_b.abs() + cos_b.abs()) * (sin_d.abs() + cos_d.abs());
-    if sum.abs() <= scale {
-        None
-    } else if sum > 0.0 {
-        Some([[a, b, c], [a, c, d]])
+    let from_a = if sum.abs() > scale {
+        sum > 0.0
     } else {
-        Some([[a, b, d], [b, c, d]])
+        let order = |&i: &usize, &j: &usize| seen[i][0].total_cmp(&seen[j][0]).then(seen[i][1].total_cmp(&seen[j][1]));
+        let (first, last) = ((0..4).min_by(order)?, (0..4).max_by(order)?);
+        // Between the two that come between these, if they are on both sides; else from the last one.
+        if (first + last) % 2 == 0 { first % 2 == 1 } else { last % 2 == 0 }
+    };
+    Some(pieces(from_a))
+}
+
+/// Twice the area of a triangle, positive counter-clockwise.
+fn turn(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> f64 {
+    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+}
+
+/// The corners as OpenSCAD's tessellator (libtess2) sees them, counter-clockwise: along the axis that is nearest to the normal
+/// of the largest triangle on the two corners that are farthest apart along an axis.
+fn seen_by_sweep(coordinates: &[Vec3]) -> Vec<[f64; 2]> {
+    let end = |axis: usize, sign: f64| {
+        let farther = |p: Vec3, q: Vec3| if sign * q[axis] > sign * p[axis] { q } else { p };
+        coordinates.iter().copied().reduce(farther).unwrap_or_default()
+    };
+    let length = |axis: usize| end(axis, 1.0)[axis] - end(axis, -1.0)[axis];
+    let longest = (1..3).fold(0, |longest, axis| if length(axis) > length(longest) { axis } else { longest });
+    let (low, high) = (end(longest, -1.0), end(longest, 1.0));
+    let normals = coordinates.iter().map(|&p| (low - high).cross(p - high));
+    let normal = normals.fold(Vec3::ZERO, |best, n| if n.dot(n) > best.dot(best) { n } else { best });
+    let axis = normal.largest_axis();
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut seen: Vec<[f64; 2]> = coordinates.iter().map(|p| [p[u], p[v]]).collect();
+    let area: f64 = seen.windows(2).map(|pair| turn(seen[0], pair[0], pair[1])).sum();
+    if area < 0.0 {
+        seen.iter_mut().for_each(|p| p[1] = 0.0 - p[1]);
     }
+    seen
 }
 
 /// Cuts polygons into triangles; keeps its memory from one polygon to the next.
@@ -123,10 +156,7 @@ impl Cutter {
         if let Some(plane) = plane {
             let flat = flatten(coordinates, plane.normal);
             self.earcut.earcut(flat.iter().copied(), &[] as &[u32], &mut self.cut);
-            let doubled_area = |t: &[u32]| {
-                let [a, b, c] = [0, 1, 2].map(|i| flat[t[i] as usize]);
-                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-            };
+            let doubled_area = |t: &[u32]| turn(flat[t[0] as usize], flat[t[1] as usize], flat[t[2] as usize]);
             let clockwise = self.cut.chunks_exact(3).map(doubled_area).sum::<f64>() < 0.0;
             for t in self.cut.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|i| corners[t[i] as usize]);

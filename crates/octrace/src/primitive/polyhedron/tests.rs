@@ -154,6 +154,25 @@ fn warped_quadrangles_are_cut_between_their_wide_angles() {
     }
 }
 
+/// Corners on a circle, where both diagonals are Delaunay's: what OpenSCAD 2021.01 makes of a rectangle and of a trapezoid. Their
+/// heights are 2 at the ends of its diagonal and 1 else; the other diagonal would give 4/3 of the area.
+#[test]
+fn ties_between_diagonals_are_decided_as_openscad_decides_them() {
+    for (corners, area) in [
+        ([[0.0, 0.0, 1.0], [3.0, 0.0, 2.0], [3.0, 2.0, 1.0], [0.0, 2.0, 2.0]], 6.0),
+        ([[0.0, 0.0, 1.0], [4.0, 0.0, 2.0], [3.0, 2.0, 1.0], [1.0, 2.0, 2.0]], 6.0),
+    ] {
+        let floor = corners.map(|[x, y, _]| Vec3::new(x, y, 0.0));
+        let points: Vec<Vec3> = floor.into_iter().chain(corners.map(Vec3::from)).collect();
+        for first in 0..4 {
+            let mut faces = vec![vec![3, 2, 1, 0], (0..4).map(|i| 4 + (first + i) % 4).collect()];
+            faces.extend((0..4).map(|i| vec![i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]));
+            let volume = Polyhedron::new(points.clone(), faces).unwrap().volume();
+            assert!((volume - area * 5.0 / 3.0).abs() < 1e-12, "{volume}");
+        }
+    }
+}
+
 #[test]
 fn warped_faces_become_triangles() {
     let (mut points, faces) = block([0.0; 3], [1.0; 3]);
