@@ -1,4 +1,5 @@
-//! Subtrees that a file repeats, word for word: each becomes a solid once. Real dumps repeat them by the thousand.
+//! Subtrees that a file repeats, word for word: each becomes a solid once. Real dumps repeat them by the thousand. So are
+//! single nodes that read a file or set a text.
 
 use super::language::{self, Kind};
 use super::looks::Look;
@@ -35,9 +36,11 @@ impl Memory {
     /// With nothing remembered yet, for this tree.
     pub fn of(ast: &Ast) -> Self {
         let words: Vec<_> = ast.names().map(language::find).collect();
-        let is_setting = |node| {
-            let kind = words[ast.name_index(node)].map(|word| word.kind);
-            matches!(kind, Some(Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background))
+        let kind = |node| words[ast.name_index(node)].map(|word| word.kind);
+        let is_setting =
+            |node| matches!(kind(node), Some(Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background));
+        let is_short = |node| {
+            ast.subtree_len(node) < 2 && !matches!(kind(node), Some(Kind::Import | Kind::Surface | Kind::Text))
         };
         // What the subtrees say, and which of them may be remembered by that.
         let (mut said, mut hashes) = (vec![0; ast.len()], vec![0; ast.len()]);
@@ -50,7 +53,7 @@ impl Memory {
                     let is_marked = ast.modifiers(node) != Modifiers::NONE;
                     hashes[i] = if is_marked || is_setting(node) || !ast.children(node).all(is_pure) {
                         IMPURE
-                    } else if ast.subtree_len(node) < 2 {
+                    } else if is_short(node) {
                         LEAF
                     } else {
                         said[i].max(LEAF + 1)
@@ -96,5 +99,5 @@ impl Memory {
 
 /// Stands for a hash while they are sorted out: of a subtree that means something else elsewhere.
 const IMPURE: u64 = 0;
-/// Likewise, of a single node, which is made as fast as it is found again.
+/// Likewise, of a single node that is made as fast as it is found again; files and texts are not.
 const LEAF: u64 = 1;

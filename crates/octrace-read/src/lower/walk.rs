@@ -197,7 +197,8 @@ impl<'a, 'r> Walk<'a, 'r> {
             self.unknown(node);
             return Step::Into(Box::new(self.frame(node, Operation::LeaveOut, look, map)));
         };
-        let remembers = counts && self.root.is_none() && paints && self.memory.is_repeated(self.ast, node);
+        let is_tree = counts && self.root.is_none() && paints && !word.kind.is_leaf();
+        let remembers = is_tree && self.memory.is_repeated(self.ast, node);
         if remembers && let Some((operand, leaves)) = self.memory.recall(self.ast, node, look) {
             self.leaves += leaves;
             return Step::Done(Some(operand));
@@ -207,7 +208,7 @@ impl<'a, 'r> Walk<'a, 'r> {
         let args = Args::of(self.ast, node, word, &mut self.report);
         if word.kind.is_leaf() {
             self.refuse_children(node, word);
-            let operand = self.leaf(word.kind, &args, &map, counts, in_hull);
+            let operand = self.leaf(node, word.kind, &args, &map, counts, in_hull);
             if is_root {
                 self.root_result = operand.clone().unwrap_or(Operand::Empty);
             }
@@ -272,7 +273,15 @@ impl<'a, 'r> Walk<'a, 'r> {
         }
     }
 
-    fn leaf(&mut self, kind: Kind, args: &Args<'_>, map: &Affine, counts: bool, in_hull: bool) -> Option<Operand> {
+    fn leaf(
+        &mut self,
+        node: NodeId,
+        kind: Kind,
+        args: &Args<'_>,
+        map: &Affine,
+        counts: bool,
+        in_hull: bool,
+    ) -> Option<Operand> {
         if matches!(kind, Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background) {
             self.settings.take(kind, args, map, &mut self.report);
             return None;
@@ -280,7 +289,7 @@ impl<'a, 'r> Walk<'a, 'r> {
         if !counts {
             return Some(Operand::Empty);
         }
-        let operand = self.shape(kind, args, in_hull);
+        let operand = self.shape_once(node, kind, args, in_hull);
         // A map that flattens is complained about where it is.
         if let Operand::Solid(made) = &operand
             && map.inverse().is_some()
@@ -290,6 +299,20 @@ impl<'a, 'r> Walk<'a, 'r> {
         }
         self.leaves += usize::from(operand.dimension().is_some());
         Some(operand)
+    }
+
+    /// What a leaf is. What is long in the making, and repeated, is made once; looks and places do not matter to it.
+    fn shape_once(&mut self, node: NodeId, kind: Kind, args: &Args<'_>, in_hull: bool) -> Operand {
+        let repeats = self.memory.is_repeated(self.ast, node);
+        if repeats && let Some((operand, _)) = self.memory.recall(self.ast, node, Look::default()) {
+            return operand;
+        }
+        let known = Known { look: Look::default(), said: self.report.count(), leaves: self.leaves };
+        let operand = self.shape(kind, args, in_hull);
+        if repeats {
+            self.remember(node, known, &operand);
+        }
+        operand
     }
 
     /// Keeps in mind what a node became, if there was nothing to say about it.
