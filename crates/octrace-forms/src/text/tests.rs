@@ -60,9 +60,11 @@ fn check((setting, expected, area): &Known, fonts: &FontSource) {
     let made = outline(&spec, fonts).unwrap();
     assert_eq!(made.warnings, [], "{setting:?}");
     // OpenSCAD moves points to whole pixels, of which an em has 2170.
+    // Where glyphs hang from is moved to whole pixels there, not here.
+    let off = if matches!(spec.direction, "ttb" | "btt") { 5e-4 } else { 1e-5 };
     for (actual, expected) in bounds(&made.paths).into_iter().zip(expected) {
         assert!(
-            (actual - expected).abs() < 1e-5 * spec.size + 1e-4,
+            (actual - expected).abs() < off * spec.size + 1e-4,
             "{setting:?}: {:?}, not {expected}",
             bounds(&made.paths)
         );
