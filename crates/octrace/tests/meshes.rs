@@ -2,6 +2,7 @@
 
 use octrace::exec::Exec;
 use octrace::geom::sin_cos_deg;
+use octrace::octree::BuildOptions;
 use octrace::trace::{Backend, RayTile, RayTo, Scratch, TILE_PX};
 use octrace::{Accel, Camera, Polyhedron, Projection, Ray, Solid, Tracer, TracerOptions, Vec3};
 
@@ -73,9 +74,14 @@ fn hollows() -> Solid {
 
 /// Compares a picture, and rays from where it was hit to everywhere, with what the canonical tracer says.
 fn compare(solids: &[Solid], camera: Camera) {
+    compare_in(BuildOptions::default(), solids, camera);
+}
+
+/// The same with another octree.
+fn compare_in(octree: BuildOptions, solids: &[Solid], camera: Camera) {
     let exec = Exec::with_threads(1);
     let build = |accel| {
-        let options = TracerOptions { accel, ..TracerOptions::default() };
+        let options = TracerOptions { accel, octree, ..TracerOptions::default() };
         Tracer::build_bodies(solids, &options, &exec).expect("nobody cancels")
     };
     let (expected, tested) = (build(Accel::None), build(Accel::Octree));
@@ -176,10 +182,43 @@ fn hollows_that_overlap() {
     compare(&[open], along_x([2.0; 3], 5.0));
 }
 
-/// Tori are crossed one ray at a time, meshes beside them are not.
+fn ring(minor: f64) -> Solid {
+    Solid::primitive(octrace::Primitive::Torus { minor })
+}
+
+#[test]
+fn tori() {
+    for minor in [0.25, 0.4, 1.0, 1.25] {
+        compare(&[ring(minor).scale([1.0, 1.5, 0.8])], from([3.0, -4.0, 2.0], [0.0; 3], 25.0));
+    }
+    // In the ring's plane, four crossings a ray.
+    compare(&[ring(0.5)], along_x([0.0; 3], 2.0));
+    let thick = || ring(0.4).rotate([20.0, 30.0, 0.0]);
+    compare(&[Solid::block().scale([3.0, 3.0, 1.0]).translate([-1.5, -1.5, -0.5]) - thick()], along_x([0.0; 3], 2.0));
+    compare(&[thick(), ring(0.2) - Solid::sphere().scale([0.5; 3]).translate([1.0, 0.0, 0.0])], along_x([0.0; 3], 2.0));
+    let copies =
+        (0..9).map(|i| (thick() - Solid::cylinder()).translate([4.0 * f64::from(i % 3), 4.0 * f64::from(i / 3), 0.0]));
+    compare(&[copies.reduce(|all, next| all + next).expect("nine")], from([14.0, -9.0, 8.0], [4.0, 4.0, 0.0], 35.0));
+}
+
+/// Several tori in one cell, each crossed up to four times there; from five on scalar code looks at them.
+#[test]
+fn tori_in_large_cells() {
+    let octree = BuildOptions { leaf_surfaces: 40, depth: Some(1) };
+    let turned = |i: i32| ring(0.3).rotate([36.0 * f64::from(i), 50.0, 0.0]);
+    for count in [1, 2, 4, 6] {
+        let rings = (0..count).map(turned).reduce(|all, next| all + next).expect("some");
+        let slab = Solid::block().scale([3.0, 3.0, 0.9]).translate([-1.5, -1.5, -0.4]);
+        for solid in [rings.clone(), slab.clone() & rings.clone(), slab - rings] {
+            compare_in(octree, std::slice::from_ref(&solid), from([3.0, -4.0, 1.0], [0.0; 3], 25.0));
+            compare_in(octree, &[solid], along_x([0.0; 3], 1.5));
+        }
+    }
+}
+
 #[test]
 fn meshes_and_tori() {
-    let torus = || Solid::primitive(octrace::Primitive::Torus { minor: 0.4 }).scale([0.8; 3]);
+    let torus = || ring(0.4).scale([0.8; 3]);
     compare(&[bumpy(16) - torus()], from([3.0, -4.0, 2.0], [0.0; 3], 25.0));
     compare(&[torus() - bumpy(16).scale([0.8; 3])], from([3.0, -4.0, 2.0], [0.0; 3], 25.0));
     compare(&[plates(11) & torus().rotate([0.0, 90.0, 0.0]).translate([0.5; 3])], along_x([0.5; 3], 1.1));

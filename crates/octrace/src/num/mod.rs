@@ -7,4 +7,5 @@ mod roots;
 pub(crate) use linear::{HalfSpace, farthest};
 pub use power::power_of_fraction;
 pub(crate) use power::series as power_series;
-pub use roots::{bracketed_root, cubic_roots};
+pub(crate) use roots::MOST_STEPS;
+pub use roots::{Precision, bracketed_root, cubic_roots};

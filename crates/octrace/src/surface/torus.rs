@@ -2,7 +2,7 @@
 
 use super::{CellBox, Crossings, Side};
 use crate::geom::{Affine, Ray, Vec3};
-use crate::num::{bracketed_root, cubic_roots};
+use crate::num::{Precision, bracketed_root, cubic_roots};
 
 /// Which part of a torus' surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum TorusKind {
 
 impl TorusKind {
     /// Where the circle passes through the half-plane in which a point is: on the point's side of the axis, or beyond.
-    fn ring(self) -> f64 {
+    pub(crate) fn ring(self) -> f64 {
         match self {
             Self::Outer => 1.0,
             Self::Inner => -1.0,
@@ -45,7 +45,7 @@ struct Line {
 }
 
 impl Line {
-    /// `g = (ρ - 1)² + z² - minor²`, negative inside, with `ρ² = x² + y²`; and its slope along the line.
+    /// `g = (ρ - 1)² + z² - minor²`, negative inside, with `ρ² = x² + y²`; and Newton's step to where it is zero.
     ///
     /// With `h = (ρ + 1)² + z² - minor²` the torus' polynomial is `f = g h`. The zeros of `h` are the inner surface; there `h`
     /// takes the place of `g`. And where rounding makes `f` lose the thin tubes, `g` keeps them.
@@ -54,8 +54,10 @@ impl Line {
         let rho = (p.x * p.x + p.y * p.y).sqrt();
         let from_ring = rho - self.ring;
         let value = from_ring * from_ring + p.z * p.z - self.minor * self.minor;
-        let rho_slope = (p.x * self.along.x + p.y * self.along.y) / rho;
-        (value, 2.0 * (from_ring * rho_slope + p.z * self.along.z))
+        let outwards = p.x * self.along.x + p.y * self.along.y;
+        // Half the slope, times ρ.
+        let slope = from_ring * outwards + p.z * self.along.z * rho;
+        (value, -value * rho / (2.0 * slope))
     }
 
     /// The stretch in the ball and in the slab around the torus; `None` where they are missed, or touched only.
@@ -105,26 +107,34 @@ impl Torus {
         let b = near.x * along.x + near.y * along.y;
         let size = 1.0 + self.minor;
         // Where f turns it is flat, so its sign there is that of a place nearby.
-        let (turns, count) = cubic_roots(k - 2.0 * a, -2.0 * b, lo, hi, 1e-10 * size);
-        let tolerance = f64::EPSILON / 16.0 * size;
+        let tolerance = 1e-10 * size;
+        let (turns, count) = cubic_roots(k - 2.0 * a, -2.0 * b, (lo, hi), Precision { tolerance, noise: 0.0 });
 
         // Points are computed to a few roundings of the coordinates that go into them, and g has the slope 2 minor. A
         // turn where g is zero to that precision touches the surface, or is itself the root of a longer stretch.
-        let touch = 2.0 * self.minor * (4.0 * f64::EPSILON) * (size + origin.max_abs());
+        let rounding = 2.0 * self.minor * (4.0 * f64::EPSILON);
+        let touch = rounding * (size + origin.max_abs());
+        let precision = Precision { tolerance: f64::EPSILON / 16.0 * size, noise: rounding * size };
         let mut crossings = Crossings::none(false);
-        let (mut from, mut inside) = (lo, false);
-        // The ball and the slab end outside.
-        let ends_outside = std::iter::once((hi, f64::INFINITY));
-        for (s, value) in turns[..count].iter().map(|&s| (s, line.value(s).0)).chain(ends_outside) {
-            if value.abs() <= touch {
+        let (mut from, mut value_from, mut inside) = (lo, line.value(lo).0, false);
+        for (i, s) in turns[..count].iter().copied().chain(std::iter::once(hi)).enumerate() {
+            let value = line.value(s).0;
+            // The ball and the slab end outside.
+            let is_end = i == count;
+            if !is_end && value.abs() <= touch {
                 continue;
             }
-            if (value < 0.0) != inside {
-                let root = bracketed_root(|s| line.value(s), from, s, inside, tolerance);
+            if (!is_end && value < 0.0) != inside {
+                // As if g were a parabola that turns at an end where f does.
+                let start = match is_end {
+                    true => from + (s - from) * (value_from / (value_from - value)).sqrt(),
+                    false => s - (s - from) * (value / (value - value_from)).sqrt(),
+                };
+                let root = bracketed_root(|s| line.value(s), (from, s), start, inside, precision);
                 crossings.push(t_near + root / length);
                 inside = !inside;
             }
-            from = s;
+            (from, value_from) = (s, value);
         }
         crossings
     }

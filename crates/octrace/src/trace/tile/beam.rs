@@ -2,7 +2,7 @@
 //!
 //! A tile's rays fill a *beam*, a pyramid or a prism, of which planes cut the shares of rows and columns of packets. Where a
 //! cell lies between those planes tells which packets may reach it. For pruning, the beam is cut into eight parts
-//! ([`super::prune`]).
+//! ([`super::parts`]).
 
 use super::lanes::{F64s, Isa, LANES, Stored, Vector};
 use super::layout::{BUNDLE_COLUMNS, BUNDLE_PX, COLUMNS, PACKET_PX, ROWS, packets_in};

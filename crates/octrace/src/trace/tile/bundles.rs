@@ -2,13 +2,13 @@
 //!
 //! Of a bundle's rays one knows the least and the greatest coordinates. So one knows between which parameters they come
 //! through a cell, and the parallelepipeds in which they are then, for which programs are pruned as for the parts of a beam
-//! ([`super::prune`]). That says something of cells that are not much smaller than the bundle is wide.
+//! ([`super::parts`]). That says something of cells that are not much smaller than the bundle is wide.
 
 use super::kernels::Cube;
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
 use super::layout::{PACKETS, TOGETHER};
 use super::packet::Packet;
-use super::prune::{Boxes, Parts};
+use super::parts::{Boxes, Parts};
 use crate::geom::Vec3;
 
 /// Programs are pruned for a bundle in cells with at least this part of its width as half edge.

@@ -13,6 +13,13 @@ pub(super) struct Rays<I: Isa, N> {
 }
 
 impl<I: Isa, N: Number<I>> Rays<I, N> {
+    /// Points along them.
+    #[inline(always)]
+    pub fn at(&self, t: F64s<I>) -> Vector<F64s<I>> {
+        let (o, d) = (self.origin.map(Number::lanes), self.direction);
+        Vector::new(o.x + d.x * t, o.y + d.y * t, o.z + d.z * t)
+    }
+
     /// One of them.
     fn lane(&self, i: usize) -> Ray {
         let at = |v: Vector<F64s<I>>| Vec3::new(v.x.stored().0[i], v.y.stored().0[i], v.z.stored().0[i]);

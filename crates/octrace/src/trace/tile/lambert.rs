@@ -7,9 +7,10 @@ use super::lanes::{F64s, Isa, LANES, Mask, Number, Stored, Vector};
 use super::layout::{PACKET_PX, PACKETS, corner_of, lane_of};
 use super::mesh::face_of;
 use super::packet::{Common, Origins, Own, Packet};
+use super::torus::from_ring;
 use super::{RayTile, TILE_PX, Tiles};
 use crate::compile::{Catalog, Use, Word};
-use crate::geom::Vec3;
+use crate::geom::{Affine, Vec3};
 use crate::model::CameraRays;
 use crate::surface::Surface;
 use crate::trace::Scratch;
@@ -78,9 +79,8 @@ impl Tiles<'_> {
     fn is_unusual(&self, packet: &Packet, lane: usize) -> bool {
         let Word::Literal { index, .. } = Word::decode(packet.words[lane]) else { return true };
         match self.tracer.catalog.literal(index).surface {
-            Surface::Plane(_) | Surface::Quadric(_) | Surface::Placed(_) => false,
+            Surface::Plane(_) | Surface::Quadric(_) | Surface::Torus(_) | Surface::Placed(_) => false,
             Surface::Mesh(_) => packet.facets[lane] == Packet::UNKNOWN,
-            Surface::Torus(_) => true,
         }
     }
 
@@ -227,21 +227,32 @@ fn cosine<I: Isa, N: Number<I>>(surface: &Surface, rays: &Rays<I, N>, t: F64s<I>
     let (to_light, along_ray) = match surface {
         Surface::Plane(plane) => (F64s::splat(plane.normal.dot(light)), one(plane.normal).dot(d)),
         Surface::Quadric(quadric) => {
-            let o = rays.origin.map(Number::lanes);
-            let p = Vector::new(o.x + d.x * t, o.y + d.y * t, o.z + d.z * t);
-            let q = point::<I, F64s<I>>(&quadric.to_local, p);
+            let q = point::<I, F64s<I>>(&quadric.to_local, rays.at(t));
             let (s, _) = quadric.kind.coefficients();
-            let slope = Vector::new(q.x, q.y, q.z * F64s::splat(s));
-            // The gradient in scene space.
-            let column = |axis: usize| one(quadric.to_local.column(axis)).dot(slope);
-            let gradient = Vector::new(column(0), column(1), column(2));
-            let length = gradient.dot(gradient).sqrt();
-            (gradient.dot(one(light)) / length, gradient.dot(d))
+            cosines(&quadric.to_local, Vector::new(q.x, q.y, q.z * F64s::splat(s)), d, light)
+        }
+        Surface::Torus(torus) => {
+            let q = point::<I, F64s<I>>(&torus.to_local, rays.at(t));
+            cosines(&torus.to_local, from_ring(torus, q), d, light)
         }
         // Scalar code shades those lanes.
-        Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (F64s::zero(), F64s::zero()),
+        Surface::Mesh(_) | Surface::Placed(_) => (F64s::zero(), F64s::zero()),
     };
     facing_lanes(to_light, along_ray)
+}
+
+/// The cosine to the light of the gradient with that slope in local coordinates; and which way it is turned along a ray.
+#[inline(always)]
+fn cosines<I: Isa>(
+    map: &Affine,
+    slope: Vector<F64s<I>>,
+    direction: Vector<F64s<I>>,
+    light: Vec3,
+) -> (F64s<I>, F64s<I>) {
+    let column = |axis: usize| Vector::<F64s<I>>::from_one(map.column(axis)).dot(slope);
+    let gradient = Vector::new(column(0), column(1), column(2));
+    let length = gradient.dot(gradient).sqrt();
+    (gradient.dot(Vector::from_one(light)) / length, gradient.dot(direction))
 }
 
 /// As [`facing`].

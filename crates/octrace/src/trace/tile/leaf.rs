@@ -4,10 +4,11 @@ use super::bundles::LEAST_PRUNED;
 use super::kernels::{Cube, GiveUp, OneByOne, Several, Single, bits_of};
 use super::lanes::Isa;
 use super::layout::{bundles_of, packets_of};
-use super::mesh::Meshed;
+use super::mesh::Toggled;
 use super::packet::Origins;
+use super::parts::Parts;
 use super::program::{Kinds, is_short};
-use super::prune::{Parts, Pruned};
+use super::prune::Pruned;
 use super::walk::Walk;
 use crate::geom::Vec3;
 
@@ -137,7 +138,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         match (self.scenery.kinds_of(words), words) {
             (Kinds::Plain, &[word]) => I::call(Single { walk: self, word, packets, cube, depths }),
             (Kinds::Plain, _) => I::call(Several { walk: self, words, packets, cube, depths }),
-            (Kinds::Meshed, _) => I::call(Meshed { walk: self, words, packets, cube, depths }),
+            (Kinds::Toggled, _) => I::call(Toggled { walk: self, words, packets, cube, depths }),
             (Kinds::Other, _) => I::call(OneByOne { walk: self, words, packets, cube, depths }),
         }
         self.close(packets);

@@ -18,11 +18,14 @@ mod leaf;
 mod mesh;
 mod outer;
 mod packet;
+mod parts;
 mod points;
 mod program;
 mod prune;
+mod roots;
 mod sort;
 mod stream;
+mod torus;
 mod walk;
 
 pub use dispatch::Backend;

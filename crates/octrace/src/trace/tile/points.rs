@@ -3,7 +3,8 @@
 use super::crossing::point;
 use super::eight::{EightHits, EightRays};
 use super::lanes::{F64s, Isa, LANES, Mask, Stored, Vector};
-use crate::geom::Vec3;
+use super::torus::from_ring;
+use crate::geom::{Affine, Vec3};
 use crate::surface::{Quadric, Surface};
 use crate::trace::Tracer;
 
@@ -58,7 +59,16 @@ pub(crate) fn points<I: Isa>(tracer: &Tracer, rays: &EightRays, hits: &EightHits
                 let (unit, usual) = gradient.normalized();
                 (unit, off / gradient.dot(gradient).sqrt(), usual.bits())
             }
-            Surface::Torus(_) | Surface::Mesh(_) | Surface::Placed(_) => (normal, rounding, 0),
+            Surface::Torus(torus) => {
+                let q = point::<I, F64s<I>>(&torus.to_local, o.minus::<I>(offset) + d * t);
+                let n = from_ring(torus, q).map(|v| v * F64s::splat(2.0));
+                let off = abs::<I>(n)
+                    .dot(reach_of(&torus.to_local, reach) + Vector::from_one(Vec3::splat(1.0 + torus.minor)));
+                let gradient = transposed_vector(&torus.to_local, n);
+                let (unit, usual) = gradient.normalized();
+                (unit, off / gradient.dot(gradient).sqrt(), usual.bits())
+            }
+            Surface::Mesh(_) | Surface::Placed(_) => (normal, rounding, 0),
         };
         unusual |= same & !usual;
         let same = Mask::from_bits(same);
@@ -94,14 +104,22 @@ fn gradient<I: Isa>(quadric: &Quadric, p: Vector<F64s<I>>, reach: Vector<F64s<I>
     let q = point::<I, F64s<I>>(&quadric.to_local, p);
     let two = F64s::splat(2.0);
     let n = Vector::new(two * q.x, two * q.y, F64s::splat(2.0 * s) * q.z);
-    let [x, y, z] = quadric.to_local.rows;
-    let translation = Vector::<F64s<I>>::from_one(quadric.to_local.translation.abs());
-    let (far_x, far_y) = (Vector::<F64s<I>>::from_one(x.abs()), Vector::<F64s<I>>::from_one(y.abs()));
-    let far_z = Vector::<F64s<I>>::from_one(z.abs());
-    let far = Vector::new(far_x.dot(reach), far_y.dot(reach), far_z.dot(reach)) + translation;
-    let off = abs::<I>(n).dot(far) + F64s::splat(c0.abs());
-    let (x, y, z) = (Vector::<F64s<I>>::from_one(x), Vector::from_one(y), Vector::from_one(z));
-    (x * n.x + y * n.y + z * n.z, off)
+    let off = abs::<I>(n).dot(reach_of(&quadric.to_local, reach)) + F64s::splat(c0.abs());
+    (transposed_vector(&quadric.to_local, n), off)
+}
+
+/// The sum of the magnitudes of what coordinates are computed from, behind a map.
+#[inline(always)]
+fn reach_of<I: Isa>(map: &Affine, reach: Vector<F64s<I>>) -> Vector<F64s<I>> {
+    let row = |i: usize| Vector::<F64s<I>>::from_one(map.rows[i].abs()).dot(reach);
+    Vector::new(row(0), row(1), row(2)) + Vector::from_one(map.translation.abs())
+}
+
+/// As [`Affine::transposed_vector`].
+#[inline(always)]
+fn transposed_vector<I: Isa>(map: &Affine, n: Vector<F64s<I>>) -> Vector<F64s<I>> {
+    let row = |i: usize| Vector::<F64s<I>>::from_one(map.rows[i]);
+    row(0) * n.x + row(1) * n.y + row(2) * n.z
 }
 
 /// Sets the normals and roundings of some lanes to what scalar code says.

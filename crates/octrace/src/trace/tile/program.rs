@@ -26,8 +26,8 @@ pub(super) fn is_short(words: &[u32]) -> bool {
 pub(super) enum Kinds {
     /// Planes and quadrics.
     Plain,
-    /// Meshes too.
-    Meshed,
+    /// Meshes and tori too: what a line may cross more than twice.
+    Toggled,
     /// Others too, which lanes cannot cross.
     Other,
 }
@@ -36,8 +36,8 @@ pub(super) enum Kinds {
 pub(super) fn kinds_of(catalog: &Catalog, words: &[u32]) -> Kinds {
     let kinds = words.iter().filter_map(|&word| surface_of(catalog, word)).map(|surface| match surface {
         Surface::Plane(_) | Surface::Quadric(_) => Kinds::Plain,
-        Surface::Mesh(_) => Kinds::Meshed,
-        Surface::Torus(_) | Surface::Placed(_) => Kinds::Other,
+        Surface::Mesh(_) | Surface::Torus(_) => Kinds::Toggled,
+        Surface::Placed(_) => Kinds::Other,
     });
     kinds.max().unwrap_or(Kinds::Plain)
 }

@@ -1,18 +1,18 @@
-//! Cells with meshes in them, and else planes and quadrics.
+//! Cells with meshes and tori in them, and else planes and quadrics.
 
+use super::tori::LearnTorus;
 use super::{Key, Learn, MESHES};
 use crate::compile::{Catalog, Word};
 use crate::primitive::Mesh;
-use crate::surface::Surface;
+use crate::surface::{Surface, Torus};
 use crate::trace::tile::kernels::{Cube, Stretch, bits_of};
 use crate::trace::tile::lanes::{F64s, Isa, Kernel, LANES, Mask};
 use crate::trace::tile::packet::{Origins, Packet};
 use crate::trace::tile::program::Solving;
 use crate::trace::tile::walk::{Scenery, Walk};
-use std::sync::Arc;
 
-/// A leaf whose surfaces are meshes, planes and quadrics.
-pub(in super::super) struct Meshed<'a, 'b, 'c, I: Isa, O: Origins<I>> {
+/// A leaf whose surfaces are meshes, tori, planes and quadrics.
+pub(in super::super) struct Toggled<'a, 'b, 'c, I: Isa, O: Origins<I>> {
     pub walk: &'a mut Walk<'b, 'c, I, O>,
     pub words: &'a [u32],
     pub packets: u32,
@@ -20,11 +20,11 @@ pub(in super::super) struct Meshed<'a, 'b, 'c, I: Isa, O: Origins<I>> {
     pub depths: (f64, f64),
 }
 
-impl<I: Isa, O: Origins<I>> Kernel for Meshed<'_, '_, '_, I, O> {
+impl<I: Isa, O: Origins<I>> Kernel for Toggled<'_, '_, '_, I, O> {
     #[inline(always)]
     fn run(self) {
         let Self { walk, words, packets, cube, depths } = self;
-        let several = words.iter().filter(|&&word| mesh_of(walk.scenery.catalog, word).is_some()).count() > MESHES;
+        let several = words.iter().filter(|&&word| folded(walk.scenery.catalog, word).is_some()).count() > MESHES;
         for number in bits_of(packets) {
             let (here, stretch) = walk.crossing(number, cube, depths);
             if !here.any() {
@@ -33,20 +33,38 @@ impl<I: Isa, O: Origins<I>> Kernel for Meshed<'_, '_, '_, I, O> {
             let before = F64s::<I>::load(&walk.packets[number].t);
             match *words {
                 _ if several => walk.by_scalar_code(words, number, here, stretch),
-                [word] => walk.lone_mesh(word, number, here, stretch),
-                _ => walk.with_meshes(words, number, here, stretch),
+                [word] => walk.lone_toggled(word, number, here, stretch),
+                _ => walk.with_toggled(words, number, here, stretch),
             }
             walk.note_facets(number, before);
         }
     }
 }
 
-/// The mesh that a literal is of, and the number of its surface.
-pub(super) fn mesh_of(catalog: &Catalog, word: u32) -> Option<(&Arc<Mesh>, u32)> {
+/// A surface that lines may cross more than twice.
+#[derive(Clone, Copy)]
+enum Folded<'a> {
+    Mesh(&'a Mesh),
+    Torus(&'a Torus),
+}
+
+/// The mesh or the torus that a literal is of, and the number of its surface.
+#[inline(always)]
+fn folded(catalog: &Catalog, word: u32) -> Option<(Folded<'_>, u32)> {
     let Word::Literal { index, .. } = Word::decode(word) else { return None };
     let surface = catalog.literals.get(index as usize)?.surface;
     match &catalog.surfaces[surface as usize] {
-        Surface::Mesh(mesh) => Some((mesh, surface)),
+        Surface::Mesh(mesh) => Some((Folded::Mesh(mesh), surface)),
+        Surface::Torus(torus) => Some((Folded::Torus(torus), surface)),
+        Surface::Plane(_) | Surface::Quadric(_) | Surface::Placed(_) => None,
+    }
+}
+
+/// The mesh that a literal is of, and the number of its surface.
+#[inline(always)]
+fn mesh_of(catalog: &Catalog, word: u32) -> Option<(&Mesh, u32)> {
+    match folded(catalog, word) {
+        Some((Folded::Mesh(mesh), surface)) => Some((mesh, surface)),
         _ => None,
     }
 }
@@ -80,7 +98,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let catalog = self.scenery.catalog;
         let mut some = false;
         for &word in words.iter().filter(|&&word| mesh_of(catalog, word).is_some()).take(MESHES) {
-            self.learn_mesh(word, number, here.bits(), false);
+            self.learn(word, number, here.bits(), false);
             some = true;
         }
         self.one_by_one(words, number, here, stretch);
@@ -91,9 +109,9 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
 
     /// Has the toggles of some of a packet's rays found; says where they are kept.
     #[inline(always)]
-    fn learn_mesh(&mut self, word: u32, number: usize, lanes: u8, only_first: bool) -> usize {
+    fn learn(&mut self, word: u32, number: usize, lanes: u8, only_first: bool) -> usize {
         let catalog = self.scenery.catalog;
-        let Some((mesh, surface)) = mesh_of(catalog, word) else { return 0 };
+        let Some((folded, surface)) = folded(catalog, word) else { return 0 };
         let key = Key { surface, literal_shift: self.scenery.literal_shift };
         let place = self.meshes.place(number, key);
         let toggles = &mut self.meshes.known[number][place];
@@ -106,18 +124,21 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         let lanes = lanes | packet.open;
         let all = &mut *self.meshes.all;
         toggles.only_first = only_first;
-        I::call(Learn { mesh, rays, lanes, end, only_first, all, toggles });
+        match folded {
+            Folded::Mesh(mesh) => I::call(Learn { mesh, rays, lanes, end, only_first, all, toggles }),
+            Folded::Torus(torus) => I::call(LearnTorus { torus, rays, lanes, only_first, toggles }),
+        }
         place
     }
 
-    /// A stretch with a mesh and nothing else.
+    /// A stretch with a mesh or a torus and nothing else.
     #[inline(always)]
-    fn lone_mesh(&mut self, word: u32, number: usize, here: Mask<I>, stretch: Stretch<I>) {
+    fn lone_toggled(&mut self, word: u32, number: usize, here: Mask<I>, stretch: Stretch<I>) {
         let Stretch { t_in, t_out } = stretch;
         let negated = matches!(Word::decode(word), Word::Literal { negated: true, .. });
         let mut only_first = true;
         let (crossed, odd) = loop {
-            let place = self.learn_mesh(word, number, here.bits(), only_first);
+            let place = self.learn(word, number, here.bits(), only_first);
             let toggles = &self.meshes.known[number][place];
             let (crossed, _) = toggles.from::<I>(t_in);
             // What comes first is all that matters, if it does not come at once.
@@ -134,14 +155,14 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
         self.single_crossed(word, crossed.negated(negated), number, here & !odd, Stretch { t_in, t_out });
     }
 
-    /// A stretch with meshes and other surfaces.
+    /// A stretch with meshes, tori and other surfaces.
     #[inline(always)]
-    fn with_meshes(&mut self, words: &[u32], number: usize, here: Mask<I>, stretch: Stretch<I>) {
+    fn with_toggled(&mut self, words: &[u32], number: usize, here: Mask<I>, stretch: Stretch<I>) {
         let Stretch { mut t_in, t_out } = stretch;
         let catalog = self.scenery.catalog;
         for &word in words {
-            if mesh_of(catalog, word).is_some() {
-                self.learn_mesh(word, number, here.bits(), false);
+            if folded(catalog, word).is_some() {
+                self.learn(word, number, here.bits(), false);
             }
         }
         let numbers = [number as u8];
@@ -153,7 +174,7 @@ impl<I: Isa, O: Origins<I>> Walk<'_, '_, I, O> {
             // Two toggles of each mesh are looked at together, and then the next.
             let (mut end, mut odd) = (t_out, Mask::splat(false));
             for (at, &word) in words.iter().enumerate() {
-                let Some((_, surface)) = mesh_of(catalog, word) else { continue };
+                let Some((_, surface)) = folded(catalog, word) else { continue };
                 let key = Key { surface, literal_shift: self.scenery.literal_shift };
                 let Some(place) = self.meshes.find(number, key) else {
                     odd = Mask::splat(true);

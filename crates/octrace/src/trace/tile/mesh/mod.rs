@@ -1,4 +1,4 @@
-//! Meshes: where eight rays come into one and out of it, found together.
+//! Meshes: where eight rays come into one and out of it, found together. Tori too, which lines cross up to four times.
 //!
 //! For a ray that starts outside a mesh's box the first crossing is enough, as long as nothing more is asked. Else all
 //! crossings ahead are found: how often they go in and out tells where the ray starts, since at last it is outside. What is
@@ -9,9 +9,10 @@ mod all;
 mod cells;
 mod first;
 mod search;
+mod tori;
 mod triangle;
 
-pub(super) use cells::Meshed;
+pub(super) use cells::Toggled;
 
 use super::PACKETS;
 use super::crossing::{Crossed, Rays};
@@ -30,17 +31,17 @@ use triangle::Lines;
 /// So many toggles of each line are kept.
 const KEPT: usize = 4;
 
-/// So many meshes are known of a packet at once.
+/// So many meshes and tori are known of a packet at once.
 pub(super) const MESHES: usize = 4;
 
-/// Which mesh: the number of its surface, and what is added to literals where it is.
+/// Which mesh or torus: the number of its surface, and what is added to literals where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Key {
     pub surface: u32,
     pub literal_shift: u32,
 }
 
-/// Where eight lines change between outside and inside of a mesh, ahead of their starts.
+/// Where eight lines change between outside and inside of a mesh or a torus, at least ahead of their starts.
 #[derive(Clone, Debug)]
 pub(super) struct Toggles {
     key: Key,
@@ -169,7 +170,7 @@ impl MeshMemo {
         &self.known[number]
     }
 
-    /// What is known of a packet and a mesh.
+    /// What is known of a packet and a surface.
     fn find(&self, number: usize, key: Key) -> Option<usize> {
         self.known[number].iter().position(|known| known.key == key && known.lanes != 0)
     }
@@ -180,7 +181,7 @@ impl MeshMemo {
         if known.lanes >> lane & 1 != 0 { known.facet_at(lane, t) } else { None }
     }
 
-    /// Where to put what is found of a packet and a mesh.
+    /// Where to put what is found of a packet and a surface.
     fn place(&mut self, number: usize, key: Key) -> usize {
         self.find(number, key).unwrap_or_else(|| {
             let next = &mut self.next[number];
