@@ -22,7 +22,12 @@ impl<I: Isa, N: Number<I>> Kernel for LearnTorus<'_, I, N> {
     fn run(self) {
         let Self { torus: surface, rays, lanes, only_first, toggles } = self;
         let (found, unusual) = torus(surface, &rays, Mask::from_bits(lanes), only_first);
-        (toggles.lanes, toggles.odd, toggles.starts_inside) = (lanes, unusual.bits(), 0);
+        let mut odd = unusual;
+        for (t, next) in found.t.iter().zip(&found.t[1..]) {
+            // Two crossings at one place, of a torus that is tiny where it is looked at from.
+            odd = odd | t.is_finite() & next.le(*t);
+        }
+        (toggles.lanes, toggles.odd, toggles.starts_inside) = (lanes, odd.bits() & lanes, 0);
         for (place, t) in toggles.t.iter_mut().zip(found.t) {
             *place = t.stored();
         }
