@@ -126,6 +126,50 @@ fn a_squeezed_polyhedron_minus_itself_is_nothing() {
 }
 
 #[test]
+fn squashed_solids_are_seen_from_afar_where_they_are() {
+    // To sheets thinner than an atom, at an angle.
+    let squash = Affine::from_rows([
+        [0.0, -240.0, -170.0, 0.0],
+        [-720.0, -32.0, -20.0, 0.0],
+        [-1e-9, -0.043e-9, -0.027e-9, 0.0],
+    ]);
+    let eye = Vec3::new(-51665.82465104276, 51666.76577329656, -25832.559405267442);
+    let mut rays =
+        vec![Ray { origin: eye, direction: Vec3::new(0.66456260451860, -0.66687791212751, 0.33709107818496) }];
+    for i in 0..900 {
+        let (u, v) = (f64::from(i % 30) / 15.0 - 1.0, f64::from(i / 30) / 15.0 - 1.0);
+        rays.push(Ray { origin: eye, direction: Vec3::new(2.0 + 0.05 * u, -2.0 + 0.05 * v, 1.0 + 0.02 * (u + v)) });
+    }
+    let shapes =
+        [Solid::sphere(), Solid::cylinder(), Solid::block(), Solid::primitive(Primitive::Torus { minor: 0.5 })];
+    for solid in shapes.map(|solid| solid.transform(squash)) {
+        let bounds = tracer(&solid, Accel::None, 0, 0).bounds().grown(1e-6);
+        let all = all_spans(&solid, &rays);
+        for (ray, spans) in rays.iter().zip(&all) {
+            for hit in spans.iter().flat_map(|span| [span.enter, span.exit]).flatten() {
+                assert!(bounds.contains(ray.at(hit.t)), "{ray:?} {hit:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn meshes_whose_faces_were_joined_are_met_beyond_their_corners_too() {
+    let map = Affine::from_rows([[1.41421, 0.0, -1.4, 0.0], [0.0, -2.0, -2.5e-7, 2.0], [-1.4, 0.0, -1.41421, -1.0]]);
+    let solid = polyhedra()[2].clone().transform(map);
+    let ray = Ray::new([-20.713152443462, 1.999999753173, -2.4142099999999997], [3.4906600010486954e-7, -1e-30, 0.0]);
+    let with = |accel: Accel, snap: f64| {
+        let options = TracerOptions { accel, snap, ..TracerOptions::default() };
+        Tracer::build(&solid, &options, &Exec::with_threads(1)).expect("nobody cancels")
+    };
+    let canonical = with(Accel::None, 1e-3).spans(&ray);
+    assert_eq!(canonical, with(Accel::Octree, 1e-3).spans(&ray));
+    // The top, which was put level, ends a little before the corner that the ray runs through.
+    let beyond = canonical[0].enter_t() - with(Accel::None, 0.0).spans(&ray).first().map_or(0.0, |span| span.enter_t());
+    assert!(beyond != 0.0, "{canonical:?}");
+}
+
+#[test]
 fn what_is_too_large_or_too_thin_to_calculate_with_is_nothing() {
     let shapes = [
         Solid::block(),

@@ -46,7 +46,7 @@ pub fn compile(bodies: &[Solid], snap: f64, copies: Copies) -> Compiled {
             lowering.copies.iter().find(|copy| copy.kind as usize == number).map_or(0, |copy| copy.first_leaf);
         report = report.and(add_prototype(kind, first_leaf, snap, &mut catalog));
     }
-    let copies = place_copies(&lowering, &mut catalog);
+    let copies = place_copies(&lowering, 2.0 * snap * extent.diagonal(), &mut catalog);
     report = report.and(settle(&lowering, &mut programs, (&extent, snap), &copies, 0, &mut catalog));
     assert!(catalog.literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
     number_copies(&mut catalog);
@@ -76,7 +76,6 @@ fn settle(
     let literal = |l: &PendingLiteral| Literal { surface: surface_of(l).surface, leaf: first_leaf + l.leaf };
     catalog.literals.extend(literals.iter().map(literal));
 
-    // Faces stored the other way round turn their literals' signs.
     for program in programs {
         for part in [&mut program.whole, &mut program.outer] {
             let Constant::Words(words) = part else { continue };
@@ -98,6 +97,12 @@ impl PendingMesh {
         let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
         let mut mesh = mesh.expect("lowered only where a face has an area");
         mesh.keep_planes(|surface| match &surfaces[surface as usize] {
+        // What joining surfaces does to solids goes by in the room that is left around them, but where it is coarse.
+        let slack = 2.0 * report.tolerance;
+        if slack > 1e-4 * program.bounds.size().max_abs() {
+            program.bounds = program.bounds.grown(slack);
+        }
+        // Faces stored the other way round turn their literals' signs.
             &Surface::Plane(Plane { normal, offset }) => MeshPlane { normal, offset },
             _ => unreachable!("planes have planes for surfaces"),
         });
@@ -128,8 +133,9 @@ fn add_prototype(kind: Kind, first_leaf: u32, snap: f64, catalog: &mut Catalog) 
     report
 }
 
-/// Adds the surfaces that are copies, those of one solid in a row; returns their numbers.
-fn place_copies(lowering: &Lowering, catalog: &mut Catalog) -> Vec<u32> {
+/// Adds the surfaces that are copies, those of one solid in a row; returns their numbers. What is in a copy may reach beyond
+/// its box by `slack`.
+fn place_copies(lowering: &Lowering, slack: f64, catalog: &mut Catalog) -> Vec<u32> {
     let Catalog { surfaces, prototypes, .. } = catalog;
     for copy in &lowering.copies {
         prototypes[copy.kind as usize].copies += 1;
@@ -154,7 +160,7 @@ fn place_copies(lowering: &Lowering, catalog: &mut Catalog) -> Vec<u32> {
     let start = surfaces.len();
     for (copy, &number) in lowering.copies.iter().zip(&numbers) {
         placed[number as usize - start] = Some(Placed {
-            bounds: copy.bounds,
+            bounds: copy.bounds.grown(slack),
             offset: copy.offset,
             prototype: copy.kind,
             copy: number - prototypes[copy.kind as usize].first_placed,

@@ -2,7 +2,7 @@
 
 use super::census::with_stack;
 use super::copies::Operand;
-use super::lower::reliable_bounds;
+use super::reliable::reliable_bounds;
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, Solid};
 use crate::primitive::{Bvh, Primitive};
@@ -13,8 +13,9 @@ use std::ops::ControlFlow;
 /// to have one of them only.
 const GAP: f64 = 1.0 / 16.0;
 
-/// Which of those operands whose boxes are given are clear of all others.
-pub(super) fn is_clear(operands: &[Operand], boxes: &[Option<Bounds>]) -> Vec<bool> {
+/// Which of those operands whose boxes are given are clear of all others. `snap` is the import tolerance relative to the size
+/// of everything bounded.
+pub(super) fn is_clear(operands: &[Operand], boxes: &[Option<Bounds>], snap: f64) -> Vec<bool> {
     let is_asked: Vec<bool> = boxes.iter().map(Option::is_some).collect();
     let box_of =
         |(operand, own): (&Operand, &Option<Bounds>)| own.unwrap_or_else(|| reach(operand.solid, &operand.map));
@@ -24,11 +25,11 @@ pub(super) fn is_clear(operands: &[Operand], boxes: &[Option<Bounds>]) -> Vec<bo
     let tree = Bvh::build(&bounded.iter().map(|&i| boxes[i as usize]).collect::<Vec<_>>());
     let Bounds { min, max } = tree.bounds();
     // Much more than the margin of cells, and than what is taken to coincide.
-    let least = 1e-5 * (max - min).max_abs() + 1e-9 * min.max_abs().max(max.max_abs());
+    let least = 1e-5_f64.max(8.0 * snap) * (max - min).max_abs() + 1e-9 * min.max_abs().max(max.max_abs());
     let is_clear = |number: usize| {
         let own = boxes[number];
-        let gap = Vec3::splat((GAP * own.size().max_abs()).max(least));
-        let grown = Bounds::new(own.min - gap, own.max + gap);
+        let gap = (GAP * own.size().max_abs()).max(least);
+        let grown = own.grown(gap);
         let touches = |other: &Bounds| !grown.intersection(*other).is_empty();
         let stop = tree.visit(touches, |item| {
             let other = bounded[item as usize] as usize;

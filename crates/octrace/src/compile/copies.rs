@@ -150,7 +150,7 @@ fn kinds(census: &Census, operands: &mut [Operand], snap: f64) -> Vec<Kind> {
             boxes[number as usize] = Some(reach_of(&kind.program.bounds, by));
         }
     }
-    let is_clear = is_clear(operands, &boxes);
+    let is_clear = is_clear(operands, &boxes, snap);
     candidates.iter_mut().for_each(|(_, group)| group.retain(|&number| is_clear[number as usize]));
     let mut kinds = Vec::new();
     let mut left = MOST_NUMBERS;
@@ -209,6 +209,5 @@ impl Kind {
 pub(super) fn reach_of(bounds: &Bounds, by: Vec3) -> Bounds {
     let (min, max) = (bounds.min + by, bounds.max + by);
     let farthest = min.max_abs().max(max.max_abs()).max(by.max_abs());
-    let off = Vec3::splat(1e-8 * bounds.size().max_abs() + 1e-12 * farthest);
-    Bounds::new(min - off, max + off)
+    Bounds::new(min, max).grown(1e-8 * bounds.size().max_abs() + 1e-12 * farthest)
 }

@@ -4,6 +4,7 @@ use super::copies::{Kind, Operand, reach_of};
 use super::draft::{Draft, Op, Value};
 use super::faces::FaceList;
 use super::facets::Faces;
+use super::reliable::{add_walls, fence, reliable_bounds};
 use super::swept::Swept;
 use super::{Leaf, Program};
 use crate::geom::{Affine, Bounds, Vec3};
@@ -71,6 +72,16 @@ pub(super) struct PendingMesh {
 
 /// One of many places of a solid.
 #[derive(Clone, Copy)]
+/// A primitive to be lowered.
+struct Bare<'a> {
+    primitive: &'a Primitive,
+    map: &'a Affine,
+    inverse: Affine,
+    bounds: Bounds,
+    leaf: u32,
+    negated: bool,
+}
+
 pub(super) struct PendingCopy {
     pub kind: u32,
     pub offset: Vec3,
@@ -211,6 +222,24 @@ impl Lowering {
                 return Lowered { whole, outer: Value::Constant(negated), bounds, bounded: bounds };
             }
             Primitive::Revolution(profile) => {
+        let bare = Bare { primitive, map, inverse, bounds, leaf, negated };
+        let Some(fence) = fence(&bounds, map, &inverse) else { return self.bare(&bare) };
+        let mut all = self.whole.open(Op::And.under(negated));
+        let lowered = self.bare(&bare);
+        all.add(lowered.whole);
+        let first_face = self.faces.len() as u32;
+        add_walls(&mut self.faces, &fence);
+        for face in first_face..self.faces.len() as u32 {
+            let index = self.literals.len() as u32;
+            self.literals.push(PendingLiteral { shape: Shape::Face(face), leaf });
+            all.add(self.whole.literal(index, negated));
+        }
+        Lowered { whole: self.whole.close(all), ..lowered }
+    }
+
+    /// A primitive by its own surfaces.
+    fn bare(&mut self, bare: &Bare) -> Lowered {
+        let Bare { primitive, map, inverse, bounds, leaf, negated } = *bare;
                 let whole = self.revolution(profile, &Swept { map, inverse, leaf, negated });
                 return Lowered { whole, outer: Value::Constant(negated), bounds, bounded: bounds };
             }
@@ -263,21 +292,4 @@ impl Lowering {
         };
         Lowered { whole, outer, bounds, bounded: if is_bounded { bounds } else { Bounds::EMPTY } }
     }
-}
-
-/// A box around the primitive as its surfaces have it, which know the inverse only. Of a map that squashes space at an
-/// angle the inverse is imprecise: what that does to the primitive's points, moved there and back, comes on top.
-pub(super) fn reliable_bounds(primitive: &Primitive, map: &Affine, inverse: &Affine) -> Bounds {
-    let bounds = primitive.bounds(map);
-    let local = primitive.bounds(&Affine::IDENTITY);
-    if !local.is_bounded() {
-        return bounds;
-    }
-    let apply = |affine: &Affine, to: Vec3| Vec3::from(affine.rows.map(|row| row.abs().dot(to)));
-    let farthest = local.min.abs().max(local.max.abs());
-    let there_and_back = apply(inverse, apply(map, farthest) + map.translation.abs());
-    let off = apply(map, there_and_back * (8.0 * f64::EPSILON));
-    // The margins of cells cover the usual.
-    let usual = 1e-9 * bounds.size().max_abs() + 1e-13 * bounds.min.max_abs().max(bounds.max.max_abs());
-    if off.max_abs() <= usual { bounds } else { Bounds::new(bounds.min - off, bounds.max + off) }
 }

@@ -14,6 +14,7 @@ mod known;
 mod lower;
 mod place;
 mod prototype;
+mod reliable;
 mod repeats;
 mod simplify;
 mod split;

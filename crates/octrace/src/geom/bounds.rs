@@ -56,6 +56,11 @@ impl Bounds {
         }
     }
 
+    /// The box reaching so much farther in every direction; an empty one stays so.
+    pub fn grown(self, by: f64) -> Self {
+        if self.is_empty() { self } else { Self { min: self.min - Vec3::splat(by), max: self.max + Vec3::splat(by) } }
+    }
+
     /// What both have in common.
     pub fn intersection(self, o: Self) -> Self {
         Self { min: self.min.max(o.min), max: self.max.min(o.max) }
