@@ -4,7 +4,7 @@ use octrace::exec::{CancelToken, Cancelled, Exec, Progress};
 use octrace::film::{Background, View, render};
 use octrace::model::frame_all;
 use octrace::query::{MeasureOptions, measure};
-use octrace::{Projection, Scene, Solid, Tracer, TracerOptions};
+use octrace::{Accel, Projection, Scene, Solid, Tracer, TracerOptions};
 use std::sync::{Arc, Mutex};
 
 /// What one stage said.
@@ -89,5 +89,17 @@ fn work_that_is_interrupted_ends_with_its_stage() {
         assert!(work(&exec), "{name} was not interrupted");
         let stages = witness.stages.lock().unwrap();
         assert!(stages.len() == 1 && stages[0].ended, "{name}: {stages:?}");
+    }
+}
+
+#[test]
+fn compiling_is_interrupted_too() {
+    let cancel = CancelToken::new();
+    cancel.cancel();
+    let exec = Exec { cancel, ..Exec::with_threads(1) };
+    let copies = Solid::union((0..40).map(|i| drilled().translate([3.0 * f64::from(i), 0.0, 0.0])));
+    for solid in [drilled(), copies] {
+        let without_octree = TracerOptions { accel: Accel::None, ..TracerOptions::default() };
+        assert_eq!(Tracer::build(&solid, &without_octree, &exec).err(), Some(Cancelled));
     }
 }

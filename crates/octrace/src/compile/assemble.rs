@@ -5,6 +5,7 @@ use super::intern::intern;
 use super::lower::{Lowering, PendingLiteral, PendingMesh, Shape};
 use super::prototype::{Numbers, Prototype};
 use super::{Catalog, CompileReport, Constant, Literal, Program, Word};
+use crate::exec::{CancelToken, Cancelled};
 use crate::geom::{Affine, Bounds};
 use crate::model::Solid;
 use crate::primitive::{Mesh, MeshPlane, MovedFace, SurfaceRef};
@@ -27,8 +28,24 @@ pub struct Compiled {
 /// # Panics
 /// If there are more than 2³⁰ uses of surfaces.
 pub fn compile(bodies: &[Solid], snap: f64, copies: Copies) -> Compiled {
-    let mut lowering = Lowering::new(snap);
-    let plan = if copies == Copies::Shared { plan(bodies, snap) } else { None };
+    compile_unless_cancelled(bodies, snap, copies, &CancelToken::new()).expect("nobody can cancel")
+}
+
+/// As [`compile`].
+///
+/// # Errors
+/// If somebody cancels.
+///
+/// # Panics
+/// As [`compile`] does.
+pub fn compile_unless_cancelled(
+    bodies: &[Solid],
+    snap: f64,
+    copies: Copies,
+    cancel: &CancelToken,
+) -> Result<Compiled, Cancelled> {
+    let mut lowering = Lowering::new(snap, cancel);
+    let plan = if copies == Copies::Shared { plan(bodies, snap, cancel) } else { None };
     let (mut programs, kinds): (Vec<Program>, Vec<Kind>) = match plan {
         None => (bodies.iter().map(|body| lowering.program_of(body, &Affine::IDENTITY)).collect(), Vec::new()),
         Some(plan) => {
@@ -36,6 +53,7 @@ pub fn compile(bodies: &[Solid], snap: f64, copies: Copies) -> Compiled {
             (programs, plan.kinds)
         }
     };
+    cancel.check()?;
     let extent = programs.iter().fold(Bounds::EMPTY, |all, program| all.union(program.bounds));
     let mut catalog = Catalog { leaves: std::mem::take(&mut lowering.leaves), ..Catalog::default() };
     let mut report = CompileReport::default();
@@ -44,13 +62,13 @@ pub fn compile(bodies: &[Solid], snap: f64, copies: Copies) -> Compiled {
         let snap = snap * extent.diagonal() / kind.program.bounds.diagonal();
         let first_leaf =
             lowering.copies.iter().find(|copy| copy.kind as usize == number).map_or(0, |copy| copy.first_leaf);
-        report = report.and(add_prototype(kind, first_leaf, snap, &mut catalog));
+        report = report.and(add_prototype(kind, first_leaf, snap, &mut catalog)?);
     }
     let copies = place_copies(&lowering, 2.0 * snap * extent.diagonal(), &mut catalog);
-    report = report.and(settle(&lowering, &mut programs, (&extent, snap), &copies, 0, &mut catalog));
+    report = report.and(settle(&lowering, &mut programs, (&extent, snap), &copies, 0, &mut catalog)?);
     assert!(catalog.literals.len() <= Word::MAX_PAYLOAD as usize, "a program has room for 2^30 uses of surfaces");
     number_copies(&mut catalog);
-    Compiled { catalog, bodies: programs, report }
+    Ok(Compiled { catalog, bodies: programs, report })
 }
 
 /// Gives the literals of some programs their surfaces, all in the catalogue behind what is there. `copies` are the surfaces
@@ -62,10 +80,12 @@ fn settle(
     copies: &[u32],
     first_leaf: u32,
     catalog: &mut Catalog,
-) -> CompileReport {
-    let (refs, report) = intern(&lowering.faces, extent, snap, &mut catalog.surfaces);
-    let meshes: Vec<SurfaceRef> =
-        lowering.meshes.iter().map(|pending| pending.build(&refs, report.tolerance, &mut catalog.surfaces)).collect();
+) -> Result<CompileReport, Cancelled> {
+    let cancel = lowering.cancel();
+    let (refs, report) = intern(&lowering.faces, extent, snap, &mut catalog.surfaces, cancel)?;
+    let build =
+        |pending: &PendingMesh| cancel.check().map(|()| pending.build(&refs, report.tolerance, &mut catalog.surfaces));
+    let meshes = lowering.meshes.iter().map(build).collect::<Result<Vec<SurfaceRef>, Cancelled>>()?;
     let surface_of = |literal: &PendingLiteral| match literal.shape {
         Shape::Face(face) => refs[face as usize],
         Shape::Mesh(mesh) => meshes[mesh as usize],
@@ -77,6 +97,12 @@ fn settle(
     catalog.literals.extend(literals.iter().map(literal));
 
     for program in programs {
+        // What joining surfaces does to solids goes by in the room that is left around them, but where it is coarse.
+        let slack = 2.0 * report.tolerance;
+        if slack > 1e-4 * program.bounds.size().max_abs() {
+            program.bounds = program.bounds.grown(slack);
+        }
+        // Faces stored the other way round turn their literals' signs.
         for part in [&mut program.whole, &mut program.outer] {
             let Constant::Words(words) = part else { continue };
             for word in words {
@@ -87,7 +113,7 @@ fn settle(
             }
         }
     }
-    report
+    Ok(report)
 }
 
 impl PendingMesh {
@@ -97,12 +123,6 @@ impl PendingMesh {
         let mesh = Mesh::new(&self.polyhedron, &self.map, tolerance, &mut next);
         let mut mesh = mesh.expect("lowered only where a face has an area");
         mesh.keep_planes(|surface| match &surfaces[surface as usize] {
-        // What joining surfaces does to solids goes by in the room that is left around them, but where it is coarse.
-        let slack = 2.0 * report.tolerance;
-        if slack > 1e-4 * program.bounds.size().max_abs() {
-            program.bounds = program.bounds.grown(slack);
-        }
-        // Faces stored the other way round turn their literals' signs.
             &Surface::Plane(Plane { normal, offset }) => MeshPlane { normal, offset },
             _ => unreachable!("planes have planes for surfaces"),
         });
@@ -113,12 +133,12 @@ impl PendingMesh {
 }
 
 /// Adds a solid that has copies.
-fn add_prototype(kind: Kind, first_leaf: u32, snap: f64, catalog: &mut Catalog) -> CompileReport {
+fn add_prototype(kind: Kind, first_leaf: u32, snap: f64, catalog: &mut Catalog) -> Result<CompileReport, Cancelled> {
     let Kind { lowering, program } = kind;
     let (first_surface, first_literal) = (catalog.surfaces.len() as u32, catalog.literals.len() as u32);
     let bounds = program.bounds;
     let mut programs = [program];
-    let report = settle(&lowering, &mut programs, (&bounds, snap), &[], first_leaf, catalog);
+    let report = settle(&lowering, &mut programs, (&bounds, snap), &[], first_leaf, catalog)?;
     let [program] = programs;
     let row = |first: u32, end: usize| Numbers { first, count: end as u32 - first, copies_from: 0 };
     catalog.prototypes.push(Prototype {
@@ -130,7 +150,7 @@ fn add_prototype(kind: Kind, first_leaf: u32, snap: f64, catalog: &mut Catalog) 
         first_placed: 0,
         copies: 0,
     });
-    report
+    Ok(report)
 }
 
 /// Adds the surfaces that are copies, those of one solid in a row; returns their numbers. What is in a copy may reach beyond

@@ -9,6 +9,7 @@ use super::census::{Census, same};
 use super::clear::is_clear;
 use super::lower::Lowering;
 use super::{Constant, Program, nesting};
+use crate::exec::CancelToken;
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, PartId, Solid};
 use rustc_hash::FxHashMap;
@@ -65,8 +66,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Finds out what is to be shared; `None` where nothing is.
-pub(super) fn plan(bodies: &[Solid], snap: f64) -> Option<Plan<'_>> {
+/// Finds out what is to be shared; `None` where nothing is, and after `cancel`.
+pub(super) fn plan<'a>(bodies: &'a [Solid], snap: f64, cancel: &CancelToken) -> Option<Plan<'a>> {
     let mut count = 0;
     for body in bodies {
         visit(body, |_, is_union| {
@@ -89,11 +90,11 @@ pub(super) fn plan(bodies: &[Solid], snap: f64) -> Option<Plan<'_>> {
                 false => operands.push(Operand { key: census.count(operand.solid, &operand.map), ..operand }),
             }
             is_topmost = false;
-            true
+            !cancel.is_cancelled()
         });
         ends.push(operands.len());
     }
-    if !census.has_frequent() {
+    if cancel.is_cancelled() || !census.has_frequent() {
         return None;
     }
     if census.has_frequent_unions() {
@@ -111,7 +112,7 @@ pub(super) fn plan(bodies: &[Solid], snap: f64) -> Option<Plan<'_>> {
             ends.push(operands.len());
         }
     }
-    let kinds = kinds(&census, &mut operands, snap);
+    let kinds = kinds(&census, &mut operands, snap, cancel);
     if kinds.is_empty() { None } else { Some(Plan { operands, ends, kinds }) }
 }
 
@@ -136,11 +137,11 @@ fn visit<'a>(body: &'a Solid, mut meet: impl FnMut(Operand<'a>, bool) -> bool) {
 }
 
 /// Decides which operands are copies of what.
-fn kinds(census: &Census, operands: &mut [Operand], snap: f64) -> Vec<Kind> {
+fn kinds(census: &Census, operands: &mut [Operand], snap: f64, cancel: &CancelToken) -> Vec<Kind> {
     let groups = groups(census, operands).into_iter().filter(|group| group.len() >= FEWEST as usize);
     let mut candidates: Vec<(Kind, Vec<u32>)> =
-        groups.filter_map(|group| Some((Kind::of(&operands[group[0] as usize], snap)?, group))).collect();
-    if candidates.is_empty() {
+        groups.filter_map(|group| Some((Kind::of(&operands[group[0] as usize], snap, cancel)?, group))).collect();
+    if cancel.is_cancelled() || candidates.is_empty() {
         return Vec::new();
     }
     let mut boxes: Vec<Option<Bounds>> = vec![None; operands.len()];
@@ -195,8 +196,8 @@ impl Kind {
     }
 
     /// Lowers a solid, if it can be shared.
-    fn of(operand: &Operand, snap: f64) -> Option<Self> {
-        let mut lowering = Lowering::new(snap);
+    fn of(operand: &Operand, snap: f64, cancel: &CancelToken) -> Option<Self> {
+        let mut lowering = Lowering::new(snap, cancel);
         let map = Affine { translation: Vec3::ZERO, ..operand.map };
         let program = lowering.program_of(operand.solid, &map);
         let is_bounded = program.outer == Constant::Everywhere(false) && program.bounds.has_volume();

@@ -9,6 +9,7 @@
 use super::face::Face;
 use super::facets::Faces;
 use super::place::Place;
+use crate::exec::{CancelToken, Cancelled};
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::primitive::SurfaceRef;
 use crate::surface::{Plane, Quadric, QuadricKind, Surface, Torus};
@@ -41,12 +42,16 @@ impl CompileReport {
 const MANY: usize = 1 << 14;
 
 /// Gives every face a surface; coincident ones the same. Returns the references in the order of `faces`.
+///
+/// # Errors
+/// If somebody cancels.
 pub(super) fn intern(
     faces: &Faces,
     extent: &Bounds,
     snap: f64,
     surfaces: &mut Vec<Surface>,
-) -> (Vec<SurfaceRef>, CompileReport) {
+    cancel: &CancelToken,
+) -> Result<(Vec<SurfaceRef>, CompileReport), Cancelled> {
     // Larger ones first, else as they come: sizes that differ by rounding are the same, and neighbours in the model are
     // neighbours in memory.
     let place = |room: &mut Vec<Vec3>, i: usize| {
@@ -64,10 +69,11 @@ pub(super) fn intern(
     let mut interner = Interner::new(extent, snap, surfaces);
     let mut refs = vec![SurfaceRef { surface: 0, flipped: false }; faces.len()];
     for index in order.into_iter().map(|place| place as u32 as usize) {
+        cancel.check()?;
         let face = faces.get(index);
         refs[index] = interner.face(&face, face.samples(&mut room));
     }
-    (refs, interner.report)
+    Ok((refs, interner.report))
 }
 
 struct Interner<'a> {
@@ -306,7 +312,7 @@ mod tests {
 
     fn interned(faces: &[Face], snap: f64) -> (Vec<SurfaceRef>, CompileReport) {
         let extent = Bounds::new(Vec3::splat(-10.0), Vec3::splat(10.0));
-        intern(&listed(faces), &extent, snap, &mut Vec::new())
+        intern(&listed(faces), &extent, snap, &mut Vec::new(), &CancelToken::new()).expect("nobody cancels")
     }
 
     #[test]
@@ -359,7 +365,8 @@ mod tests {
         let plane = Plane { normal: -Vec3::Z, offset: 0.1 };
         let extent = Bounds::new(Vec3::new(-1.0 / 3.0, -0.7, -0.3), Vec3::new(0.1, 1.0 / 7.0, 2.9));
         let mut surfaces = Vec::new();
-        let _ = intern(&listed(&[Face::Unbounded { plane }]), &extent, 0.0, &mut surfaces);
+        let faces = listed(&[Face::Unbounded { plane }]);
+        let _ = intern(&faces, &extent, 0.0, &mut surfaces, &CancelToken::new());
         let [Surface::Plane(stored)] = surfaces[..] else { unreachable!("one plane") };
         assert_eq!(stored, Plane { normal: Vec3::Z, offset: -0.1 });
     }

@@ -7,6 +7,7 @@ use super::facets::Faces;
 use super::reliable::{add_walls, fence, reliable_bounds};
 use super::swept::Swept;
 use super::{Leaf, Program};
+use crate::exec::CancelToken;
 use crate::geom::{Affine, Bounds, Vec3};
 use crate::model::{BoolOp, Node, PartId, Solid};
 use crate::primitive::{Polyhedron, Primitive};
@@ -37,6 +38,7 @@ impl Lowered {
 #[derive(Default)]
 pub(super) struct Lowering {
     snap: f64,
+    cancel: CancelToken,
     pub faces: Faces,
     pub meshes: Vec<PendingMesh>,
     pub copies: Vec<PendingCopy>,
@@ -70,8 +72,6 @@ pub(super) struct PendingMesh {
     pub first_face: usize,
 }
 
-/// One of many places of a solid.
-#[derive(Clone, Copy)]
 /// A primitive to be lowered.
 struct Bare<'a> {
     primitive: &'a Primitive,
@@ -82,6 +82,8 @@ struct Bare<'a> {
     negated: bool,
 }
 
+/// One of many places of a solid.
+#[derive(Clone, Copy)]
 pub(super) struct PendingCopy {
     pub kind: u32,
     pub offset: Vec3,
@@ -91,9 +93,15 @@ pub(super) struct PendingCopy {
 }
 
 impl Lowering {
-    /// `snap` is the import tolerance relative to the size of everything bounded.
-    pub fn new(snap: f64) -> Self {
-        Self { snap, ..Self::default() }
+    /// `snap` is the import tolerance relative to the size of everything bounded. After `cancel`, nothing that comes out is of
+    /// any use.
+    pub fn new(snap: f64, cancel: &CancelToken) -> Self {
+        Self { snap, cancel: cancel.clone(), ..Self::default() }
+    }
+
+    /// What interrupts the work.
+    pub fn cancel(&self) -> &CancelToken {
+        &self.cancel
     }
 
     /// Lowers a body, moved by `map`.
@@ -154,6 +162,7 @@ impl Lowering {
         const RED_ZONE: usize = 64 << 10;
         const SEGMENT: usize = 4 << 20;
         stacker::maybe_grow(RED_ZONE, SEGMENT, || match solid.node() {
+            _ if self.cancel.is_cancelled() => Lowered::constant(negated),
             Node::Empty => Lowered::constant(negated),
             Node::Transform(inner, child) => self.solid(child, &(*map * *inner), part, negated),
             Node::Part(id, child) => {
@@ -213,15 +222,6 @@ impl Lowering {
         }
         let leaf = self.leaves.len() as u32;
         self.leaves.push(Leaf { part });
-        let first_face = self.faces.len();
-        let mut faces = FaceList { map, inverse, faces: &mut self.faces };
-        let mut mesh = None;
-        match primitive {
-            Primitive::Prism { profile, top } => {
-                let whole = self.prism(profile, *top, &Swept { map, inverse, leaf, negated });
-                return Lowered { whole, outer: Value::Constant(negated), bounds, bounded: bounds };
-            }
-            Primitive::Revolution(profile) => {
         let bare = Bare { primitive, map, inverse, bounds, leaf, negated };
         let Some(fence) = fence(&bounds, map, &inverse) else { return self.bare(&bare) };
         let mut all = self.whole.open(Op::And.under(negated));
@@ -240,6 +240,15 @@ impl Lowering {
     /// A primitive by its own surfaces.
     fn bare(&mut self, bare: &Bare) -> Lowered {
         let Bare { primitive, map, inverse, bounds, leaf, negated } = *bare;
+        let first_face = self.faces.len();
+        let mut faces = FaceList { map, inverse, faces: &mut self.faces };
+        let mut mesh = None;
+        match primitive {
+            Primitive::Prism { profile, top } => {
+                let whole = self.prism(profile, *top, &Swept { map, inverse, leaf, negated });
+                return Lowered { whole, outer: Value::Constant(negated), bounds, bounded: bounds };
+            }
+            Primitive::Revolution(profile) => {
                 let whole = self.revolution(profile, &Swept { map, inverse, leaf, negated });
                 return Lowered { whole, outer: Value::Constant(negated), bounds, bounded: bounds };
             }

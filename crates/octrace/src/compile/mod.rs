@@ -22,7 +22,7 @@ mod swept;
 mod text;
 mod words;
 
-pub use assemble::{Compiled, compile};
+pub use assemble::{Compiled, compile, compile_unless_cancelled};
 pub use copies::Copies;
 pub(crate) use draft::Op;
 pub use intern::CompileReport;

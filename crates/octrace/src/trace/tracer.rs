@@ -7,7 +7,7 @@ use super::prepared::Prepared;
 use super::roots::Roots;
 use super::stats::Counters;
 use super::sweep::Sweep;
-use crate::compile::{Catalog, CompileReport, Constant, Op, compile, program_text};
+use crate::compile::{Catalog, CompileReport, Constant, Op, compile_unless_cancelled, program_text};
 use crate::exec::{Cancelled, Exec};
 use crate::geom::{Bounds, Hit, Ray, Spans, Vec3};
 use crate::model::{PartId, Solid};
@@ -73,7 +73,7 @@ impl Tracer {
 
     /// As [`build_bodies`](Self::build_bodies), with the threads that are there.
     fn build_here(bodies: &[Solid], options: &TracerOptions, exec: &Exec) -> Result<Self, Cancelled> {
-        let compiled = compile(bodies, options.snap, options.copies);
+        let compiled = compile_unless_cancelled(bodies, options.snap, options.copies, &exec.cancel)?;
         let bounds = compiled.bodies.iter().fold(Bounds::EMPTY, |all, body| all.union(body.bounds));
         let catalog = compiled.catalog;
         let none: Arc<[Body]> = Arc::new([]);
