@@ -2,11 +2,12 @@
 
 use octrace::model::Node;
 use octrace::{BoolOp, Primitive, Profile, Solid};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// How many nodes of each kind a tree has.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct NodeCounts {
     leaves: BTreeMap<&'static str, usize>,
     inner: BTreeMap<&'static str, usize>,

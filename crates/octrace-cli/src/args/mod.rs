@@ -55,7 +55,8 @@ const INSPECT_EXAMPLES: &str = "\
 Examples:
   octrace inspect bracket.csg
   octrace inspect bracket.csg --tree --program
-  octrace inspect bracket.csg --size 640x480 --pixel 320,240";
+  octrace inspect bracket.csg --size 640x480 --pixel 320,240
+  octrace inspect bracket.csg --json";
 
 /// Exact ray tracing of CSG solids, straight from the CSG tree, with no meshing.
 #[derive(Debug, Parser)]
@@ -279,6 +280,9 @@ pub struct MeasureArgs {
 pub struct InspectArgs {
     /// The file to look into: .csg, .oct, .scad (OpenSCAD must be installed), or - for standard input
     pub file: PathBuf,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    pub json: bool,
     /// Print the whole CSG tree as it was read
     #[arg(long)]
     pub tree: bool,

@@ -1,5 +1,7 @@
 //! `octrace inspect`: what octrace makes of a file, stage by stage.
 
+mod report;
+
 use crate::args::InspectArgs;
 use crate::failure::Failure;
 use crate::input;
@@ -7,8 +9,9 @@ use crate::output::write_stdout;
 use crate::session::Session;
 use crate::tree::{self, NodeCounts};
 use crate::values::Pixel;
-use octrace::{Bounds, Scene, Tracer};
+use octrace::{Bounds, Ray, Scene, Tracer};
 use octrace_read::{Loaded, Source};
+use report::Report;
 use std::fmt::Write;
 
 /// Prints a summary, and the parts asked for.
@@ -25,7 +28,14 @@ pub fn run(args: &InspectArgs, session: &Session) -> Result<(), Failure> {
         let (exec, _listening) = session.exec(&args.trace);
         Tracer::build_bodies(&scene.bodies().solids, &args.trace.options(scene.snap), &exec)?
     };
-    write_stdout(summary(&source, &loaded, &tracer).as_bytes())?;
+    let counts = NodeCounts::of(&scene.solid);
+    if args.json {
+        let pixel = args.pixel.map(|pixel| (pixel, tracer.explain(&ray_of(pixel, args, scene, &tracer))));
+        let report = Report::new((&source, &loaded, &counts), &tracer, args, pixel);
+        let text = serde_json::to_string(&report).expect("numbers and names are plain data");
+        return write_stdout(format!("{text}\n").as_bytes());
+    }
+    write_stdout(summary(&source, &loaded, &counts, &tracer).as_bytes())?;
     if args.tree {
         write_stdout(format!("\ntree\n{}", tree::print(&scene.solid)).as_bytes())?;
     }
@@ -33,12 +43,13 @@ pub fn run(args: &InspectArgs, session: &Session) -> Result<(), Failure> {
         write_stdout(format!("\nprogram\n{}", tracer.program_text()).as_bytes())?;
     }
     if let Some(pixel) = args.pixel {
-        write_stdout(explain(pixel, args, scene, &tracer).as_bytes())?;
+        let report = tracer.explain(&ray_of(pixel, args, scene, &tracer));
+        write_stdout(format!("\npixel {},{}\n{report}", pixel.x, pixel.y).as_bytes())?;
     }
     Ok(())
 }
 
-fn summary(source: &Source, loaded: &Loaded, tracer: &Tracer) -> String {
+fn summary(source: &Source, loaded: &Loaded, counts: &NodeCounts, tracer: &Tracer) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         let _ = writeln!(text, "{name:<10} {value}");
@@ -47,7 +58,7 @@ fn summary(source: &Source, loaded: &Loaded, tracer: &Tracer) -> String {
     let Loaded { scene, node_counts, depth, .. } = loaded;
     let nodes: Vec<String> = node_counts.iter().map(|(name, count)| format!("{name} {count}")).collect();
     line("nodes", format!("depth {depth}; {}", nodes.join(", ")));
-    line("tree", NodeCounts::of(&scene.solid).to_string());
+    line("tree", counts.to_string());
     line(
         "scene",
         format!(
@@ -107,10 +118,9 @@ fn bounds(bounds: &Bounds, unbounded: bool) -> String {
     format!("{} {} {} to {} {} {}{more}", a.x, a.y, a.z, b.x, b.y, b.z)
 }
 
-/// The ray through the middle of a pixel, explained.
-fn explain(pixel: Pixel, args: &InspectArgs, scene: &Scene, tracer: &Tracer) -> String {
+/// The ray through the middle of a pixel.
+fn ray_of(pixel: Pixel, args: &InspectArgs, scene: &Scene, tracer: &Tracer) -> Ray {
     let (width_px, height_px) = args.view.size_px();
     let camera = args.view.framing().camera_for(tracer, scene.camera, (width_px, height_px));
-    let ray = camera.rays(width_px, height_px).ray(f64::from(pixel.x) + 0.5, f64::from(pixel.y) + 0.5);
-    format!("\npixel {},{}\n{}", pixel.x, pixel.y, tracer.explain(&ray))
+    camera.rays(width_px, height_px).ray(f64::from(pixel.x) + 0.5, f64::from(pixel.y) + 0.5)
 }
