@@ -65,8 +65,15 @@ fn curved(sources: &Sources, path: &DataVectorPath<i64, Origin>) -> Contour {
             return if ccw { whole } else { crate::plane::curve::reversed(&whole) };
         }
         let count = runs.len();
-        let corners: Vec<Vec2> =
+        let mut corners: Vec<Vec2> =
             (0..count).map(|i| corner(sources, &runs[(i + count - 1) % count], &runs[i])).collect();
+        // Nearly a full turn that ends where it began, but for rounding, is a full one.
+        for (i, _) in runs.iter().enumerate().filter(|(_, run)| run.turn.abs() > PI) {
+            let (from, to) = (corners[i], &mut corners[(i + 1) % count]);
+            if (*to - from).length() <= rounding(sources) {
+                *to = from;
+            }
+        }
         let edges: Vec<Option<Edge>> =
             (0..count).map(|i| edge(sources, &runs[i], corners[i], corners[(i + 1) % count])).collect();
         let dropped: Vec<bool> = edges.iter().map(Option::is_none).collect();

@@ -99,6 +99,21 @@ fn circles_that_touch() {
 }
 
 #[test]
+fn a_circle_stays_where_something_touches_it_in_one_corner() {
+    // (24, 10) / 13 from the centre: on the circle, but for rounding, and in the middle of a chord.
+    let touch = Vec2::new(-2.153846153846154, -1.2307692307692308);
+    let round = disc(-4.0, -2.0, 2.0);
+    let corners = |a: (f64, f64), b: (f64, f64)| [Vec2::new(a.0, a.1), touch, Vec2::new(b.0, b.1)];
+    let (inside, outside) = (corners((-4.0, -1.0), (-4.0, 0.0)), corners((4.0, -2.0), (2.0, -4.0)));
+    // Both counter-clockwise.
+    let beside =
+        Outline { contours: [inside, outside].map(|corners| crate::plane::outline::straight(&corners)).to_vec() };
+    let outer = 0.5 * ((2.0 - touch.x) * (-2.0 - touch.y) - (4.0 - touch.x) * (-4.0 - touch.y)).abs();
+    check_area(&do_it(BoolOp::Union, &[round.clone(), beside.clone()]), 4.0 * PI + outer);
+    check_area(&do_it(BoolOp::Intersection, &[round, beside.clone()]), beside.area() - outer);
+}
+
+#[test]
 fn polygons_may_cross_themselves() {
     let p = |x: f64, y: f64| Vec2::new(x, y);
     let bow_tie = Outline::polygon(&[vec![p(0.0, 0.0), p(2.0, 2.0), p(2.0, 0.0), p(0.0, 2.0)]]).expect("simple");
