@@ -155,7 +155,9 @@ fn squashed_solids_are_seen_from_afar_where_they_are() {
 
 #[test]
 fn meshes_whose_faces_were_joined_are_met_beyond_their_corners_too() {
-    let map = Affine::from_rows([[1.41421, 0.0, -1.4, 0.0], [0.0, -2.0, -2.5e-7, 2.0], [-1.4, 0.0, -1.41421, -1.0]]);
+    // Nearly a turn by 45 degrees and twice the size, as dumps print it.
+    let edge = 141_421.0 / 100_000.0;
+    let map = Affine::from_rows([[edge, 0.0, -1.4, 0.0], [0.0, -2.0, -2.5e-7, 2.0], [-1.4, 0.0, -edge, -1.0]]);
     let solid = polyhedra()[2].clone().transform(map);
     let ray = Ray::new([-20.713152443462, 1.999999753173, -2.4142099999999997], [3.4906600010486954e-7, -1e-30, 0.0]);
     let with = |accel: Accel, snap: f64| {

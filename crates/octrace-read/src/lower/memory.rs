@@ -39,9 +39,8 @@ impl Memory {
         let kind = |node| words[ast.name_index(node)].map(|word| word.kind);
         let is_setting =
             |node| matches!(kind(node), Some(Kind::Light | Kind::Camera | Kind::Ambient | Kind::Background));
-        let is_short = |node| {
-            ast.subtree_len(node) < 2 && !matches!(kind(node), Some(Kind::Import | Kind::Surface | Kind::Text))
-        };
+        let is_short =
+            |node| ast.subtree_len(node) < 2 && !matches!(kind(node), Some(Kind::Import | Kind::Surface | Kind::Text));
         // What the subtrees say, and which of them may be remembered by that.
         let (mut said, mut hashes) = (vec![0; ast.len()], vec![0; ast.len()]);
         for step in ast.bottom_up() {
