@@ -51,11 +51,17 @@ impl EightRays {
     };
 
     /// The ray of a lane.
+    ///
+    /// # Panics
+    /// If there is no such lane.
     pub fn ray(&self, lane: usize) -> Ray {
         Ray { origin: lane_of_three(&self.origin, lane), direction: lane_of_three(&self.direction, lane) }
     }
 
-    /// Sets the ray of a lane.
+    /// Sets the ray of a lane, which is followed up to `end`.
+    ///
+    /// # Panics
+    /// If there is no such lane.
     pub fn put(&mut self, lane: usize, ray: &Ray, end: f64) {
         for axis in 0..3 {
             self.origin[axis].0[lane] = ray.origin[axis];
